@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/bake_report.h>
@@ -29,6 +30,7 @@ struct Bake {
     bool is_explained = false;
     bool checks_leaks = false;
     CommonOptions common;
+    GroupFiles group_files;
 
     explicit Bake(const Values& values)
         : scene_options(values),
@@ -62,6 +64,12 @@ struct Bake {
         return paths;
     }
 
+    /// An error with the file that it is about: that of a group, or the scene.
+    [[nodiscard]] Error located(const GroupFiles& files, const Error& error) const {
+        return error.field.starts_with("lights[") ? error.in(scene_options.path)
+                                                  : files.locate(error);
+    }
+
     Status run() { return is_explained ? run_explain() : run_bake(); }
 
     [[nodiscard]] Status run_explain() const {
@@ -78,11 +86,12 @@ struct Bake {
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        const auto files = all_groups(*scene);
+        auto files = all_groups(*scene);
         if (!files) return files.error();
 
         auto prepared = prepare_bake(*scene, files->groups(), settings);
-        if (!prepared) return files->locate(prepared.error());
+        if (!prepared) return located(*files, prepared.error());
+        group_files = std::move(*files);
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
     }
@@ -120,7 +129,7 @@ struct Bake {
                        double seconds) const {
         const BakedVolume result =
             finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
-        common.warn(result.report.warnings);
+        common.warn(group_files.locate(result.report.warnings));
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
         const BakeRun run{output, settings.bake, seconds, baked.stored.earlier_ray_count};
         if (!checks_leaks) {

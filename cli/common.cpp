@@ -11,6 +11,7 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 #include <tetralight/cli/failure.h>
 
 namespace tetralight::cli {
@@ -27,7 +28,7 @@ void print_to(std::ostream& stream, const CommonOptions& common, const Json& jso
     if (common.is_json) {
         stream << dump(with_warnings(json)) << '\n';
     } else if (!common.is_quiet) {
-        stream << text << '\n';
+        stream << printable_lines(text) << '\n';
     }
 }
 
@@ -71,12 +72,19 @@ Json to_json(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
 }
 
-std::string printable(std::string text) {
-    constexpr char kDelete = 0x7f;
-    for (char& c : text) {
-        if ((c >= 0 && c < ' ') || c == kDelete) c = '?';
+std::string printable(const std::string& text) {
+    return without_controls(text);
+}
+
+std::string printable_lines(std::string_view text) {
+    std::string lines;
+    while (!text.empty()) {
+        const size_t length = std::min(text.find('\n'), text.size());
+        lines += printable(std::string(text.substr(0, length)));
+        if (length < text.size()) lines += '\n';
+        text.remove_prefix(std::min(length + 1, text.size()));
     }
-    return text;
+    return lines;
 }
 
 std::string dump(const Json& json, int indent) {

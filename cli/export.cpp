@@ -189,7 +189,7 @@ struct Export {
         const auto scene = read_scene(scene_path, reading);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        const auto status = write_lightmap_glb(output, scene_path, *scene, maps);
+        const auto status = write_lightmap_glb(output, scene_path, *scene, maps, reading);
         if (status || status.error().field != "scene") return status;
         Error error = status.error().in(scene_path);
         error.value = scene_path;

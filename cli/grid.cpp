@@ -111,7 +111,7 @@ struct Grid {
         if (auto status = find_walkable(*scene); !status) return status;
         if (auto status = preview.choose_camera(*scene, scene_options.path); !status) return status;
         const auto grid = make_grid(*scene);
-        if (!grid) return located(grid.error());
+        if (!grid) return located(with_size_hint(grid.error(), *scene));
         common.warn(grid_warnings(*grid, settings));
         if (grid->adaptive && grid->adaptive->end == AdaptiveEnd::Interrupted) return keep(*grid);
         if (auto status = write_groups(output, grid->groups); !status) return status;

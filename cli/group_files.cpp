@@ -49,6 +49,16 @@ void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
     }
 }
 
+std::vector<std::string> GroupFiles::locate(std::vector<std::string> warnings) const {
+    for (std::string& warning : warnings) {
+        const auto group = std::ranges::find_if(paths_of_group_, [&](const auto& named) {
+            return warning.starts_with("group \"" + named.first + "\"");
+        });
+        if (group != paths_of_group_.end()) warning.insert(0, joined(group->second) + ": ");
+    }
+    return warnings;
+}
+
 Error GroupFiles::locate(const Error& error) const {
     const auto index = probe_group_index(error.field);
     if (!index || *index >= groups_.size()) return error;

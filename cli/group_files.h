@@ -24,6 +24,9 @@ class GroupFiles {
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
+    /// Warnings with the file, or the files, of the group that they begin with before them.
+    [[nodiscard]] std::vector<std::string> locate(std::vector<std::string> warnings) const;
+
     /// Puts the file, or the files, of the group that an error is about (its field) before it.
     [[nodiscard]] Error locate(const Error& error) const;
 

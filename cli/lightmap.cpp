@@ -86,7 +86,7 @@ struct Lightmap {
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         auto prepared = prepare_lightmaps(*scene, settings);
-        if (!prepared) return prepared.error().in(scene_options.path);
+        if (!prepared) return with_size_hint(prepared.error(), *scene).in(scene_options.path);
         if (auto status = check_preview(prepared->layout.page_count); !status) return status;
         if (auto status = write_unwrapped(*prepared); !status) return status;
         const auto start = std::chrono::steady_clock::now();
@@ -115,7 +115,8 @@ struct Lightmap {
 
     [[nodiscard]] Status write_unwrapped(const PreparedLightmaps& prepared) const {
         if (unwrapped.empty()) return Ok{};
-        return write_unwrapped_glb(unwrapped, scene_options.path, prepared.layout);
+        return write_unwrapped_glb(unwrapped, scene_options.path, prepared.layout,
+                                   scene_options.reading);
     }
 
     /// `page_count` 0: not known yet.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/scene_reading.h>
 
+#include <tetralight/bake/scene/length_unit.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/base/file.h>
 
@@ -33,6 +34,7 @@ SceneReading scene_reading(const Values& values, NormalMaps normal_maps) {
     reading.animation = values.text("animation");
     if (has_setting(values, "light_unit"))
         reading.light_unit = choice<LightUnit>(values, "light_unit");
+    reading.has_other_sky = has_setting(values, "sky") && values.is_given("sky");
     return reading;
 }
 
@@ -52,6 +54,21 @@ Result<Scene> read_scene(const std::string& path, const SceneReading& reading) {
     Error error = scene.error();
     error.field = "scene_name";
     return error;
+}
+
+std::vector<std::string> in_file(const std::string& path, std::vector<std::string> warnings) {
+    for (std::string& warning : warnings) warning.insert(0, path + ": ");
+    return warnings;
+}
+
+Error with_size_hint(const Error& error, const Scene& scene) {
+    const bool is_about_size = error.field == "max_probes" || error.field == "texels_per_meter" ||
+                               error.code == ErrorCode::OutOfResources;
+    const std::string hint = is_about_size ? length_unit_hint(scene) : "";
+    if (hint.empty()) return error;
+    Error hinted = error;
+    hinted.message = error.message.suffixed("; " + hint);
+    return hinted;
 }
 
 bool is_scene_file(const std::string& path) {

@@ -39,13 +39,14 @@ struct Unwrap {
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto layout = make_lightmap_layout(*scene, settings);
-        if (!layout) return layout.error();
-        common.warn(layout->warnings);
+        if (!layout) return with_size_hint(layout.error(), *scene).in(scene_path);
+        common.warn(in_file(scene_path, layout->warnings));
         if (layout->page_count == 0) {
             return Error{ErrorCode::InvalidArgument, "scene", scene_path,
-                         scene_path + ": has no object that takes a lightmap"};
+                         scene_path + ": the scene has no object that takes a lightmap"};
         }
-        if (auto status = write_unwrapped_glb(output, scene_path, *layout); !status) return status;
+        auto status = write_unwrapped_glb(output, scene_path, *layout, reading);
+        if (!status) return status;
         report(*layout);
         return Ok{};
     }

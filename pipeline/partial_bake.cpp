@@ -34,6 +34,7 @@ MergedProbes merged_probes(const ProbeVolume& volume, const std::vector<uint8_t>
     merged.positions = volume.exact_positions;
     for (const std::string_view name : split_names(volume.group_names)) {
         merged.group_names.emplace_back(name);
+        merged.group_empty_warnings.emplace_back();
     }
     merged.sources = volume.sources;
     for (const uint8_t flag : dering) merged.group_dering.push_back(flag != 0);

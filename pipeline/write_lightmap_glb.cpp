@@ -27,7 +27,7 @@ Status write_bytes(const std::string& path, const Result<std::vector<std::byte>>
 }  // namespace
 
 Status write_unwrapped_glb(const std::string& path, const std::string& scene_path,
-                           const LightmapLayout& layout) {
+                           const LightmapLayout& layout, const SceneReading& reading) {
     std::vector<std::vector<glm::vec2>> uvs;
     GltfLightmaps lightmaps;
     for (const LightmapPacking& packing : layout.packings) uvs.push_back(unit_uvs(packing.charts));
@@ -35,11 +35,12 @@ Status write_unwrapped_glb(const std::string& path, const std::string& scene_pat
     for (const LightmapPlace& place : layout.places) {
         lightmaps.places.push_back(gltf_place_of(rectangle_of(layout, place), place.packing));
     }
-    return write_bytes(path, make_lightmap_glb(scene_path, lightmaps));
+    return write_bytes(path, make_lightmap_glb(scene_path, lightmaps, reading));
 }
 
 Status write_lightmap_glb(const std::string& path, const std::string& scene_path,
-                          const Scene& scene, const LightmapsView& lightmaps) {
+                          const Scene& scene, const LightmapsView& lightmaps,
+                          const SceneReading& reading) {
     if (auto status = check_lightmap_scene(lightmaps, scene); !status) return status;
     const auto irradiance = map_values(lightmaps, LightmapMap::Irradiance);
     const float largest = largest_value(*irradiance);
@@ -60,7 +61,7 @@ Status write_lightmap_glb(const std::string& path, const std::string& scene_path
         if (!image) return image.error();
         gltf.pages.push_back(std::move(*image));
     }
-    return write_bytes(path, make_lightmap_glb(scene_path, gltf));
+    return write_bytes(path, make_lightmap_glb(scene_path, gltf, reading));
 }
 
 }  // namespace tetralight

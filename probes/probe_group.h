@@ -21,6 +21,8 @@ struct ProbeGroup {
     bool dering = false;
     /// Bit i: the probes light objects on rendering layer i.
     uint32_t rendering_layers = kAllRenderingLayers;
+    /// What a warning says if the group has no probes: its file and the reason. Empty: the name.
+    std::string empty_warning{};
 
     bool operator==(const ProbeGroup&) const = default;
 };

@@ -64,7 +64,7 @@ constexpr Setting kFiles[] = {
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
-                             {"Reading the scene", kOptionalRewrittenSceneReading},
+                             {"Reading the scene", kOptionalSceneReading.rows},
                              {"Common options", kCommonSettings}};
 
 }  // namespace

@@ -128,7 +128,6 @@ constexpr Setting kStoring[] = {
      .help = "Before it bakes, write the scene with its UVs to this .glb file, as `tetralight "
              "unwrap` does",
      .without = "no file",
-     .excludes = "scene_name",
      .access = Access::Command},
     {.name = "explain",
      .type = Type::Flag,

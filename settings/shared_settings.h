@@ -90,11 +90,6 @@ constexpr SceneReadingSettings scene_reading_settings(std::string_view scene) {
 inline constexpr SceneReadingSettings kSceneReading = scene_reading_settings("");
 /// Of commands whose scene may be left out.
 inline constexpr SceneReadingSettings kOptionalSceneReading = scene_reading_settings("scene");
-/// Of commands that write the scene again, which works for the default scene only.
-inline constexpr std::span<const Setting> kRewrittenSceneReading =
-    std::span(kSceneReading.rows).subspan(1);
-inline constexpr std::span<const Setting> kOptionalRewrittenSceneReading =
-    std::span(kOptionalSceneReading.rows).subspan(1);
 /// Of commands that read no light.
 inline constexpr std::span<const Setting> kScenePose = std::span(kSceneReading.rows).first(3);
 

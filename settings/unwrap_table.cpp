@@ -9,7 +9,7 @@ constexpr Setting kFiles[] = {
     output_file(".glb", "Scene with the UVs of lightmaps as TEXCOORD_1 (- = stdout)")};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
-                             {"Reading the scene", kRewrittenSceneReading},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Pages", kLightmapPages},
                              {"Common options", kCommonSettings}};
 

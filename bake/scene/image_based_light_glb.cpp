@@ -100,7 +100,7 @@ Result<std::vector<std::byte>> lit(const detail::GltfDocument& document,
 Result<std::vector<std::byte>> make_image_based_light_glb(const std::string& path,
                                                           const GltfImageBasedLight& light) {
     return detail::rewrite_gltf(
-        path, [&](const detail::GltfDocument& document) { return lit(document, light); });
+        path, {}, [&](const detail::GltfDocument& document) { return lit(document, light); });
 }
 
 }  // namespace tetralight

@@ -70,8 +70,9 @@ Result<std::vector<std::byte>> lightmapped(const detail::GltfDocument& document,
 }  // namespace
 
 Result<std::vector<std::byte>> make_lightmap_glb(const std::string& path,
-                                                 const GltfLightmaps& lightmaps) {
-    return detail::rewrite_gltf(path, [&](const detail::GltfDocument& document) {
+                                                 const GltfLightmaps& lightmaps,
+                                                 const SceneReading& reading) {
+    return detail::rewrite_gltf(path, reading, [&](const detail::GltfDocument& document) {
         return lightmapped(document, lightmaps);
     });
 }

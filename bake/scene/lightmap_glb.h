@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/no_index.h>
 
@@ -35,8 +36,9 @@ struct GltfLightmaps {
     double intensity = 1.0;
 };
 
-/// The glTF scene at `path` with lightmaps, as the bytes of a .glb file with all buffers and images
-/// of files in it. Everything else stays: materials, animations, extras, extensions.
+/// The glTF scene at `path` that `reading` chooses, with lightmaps, as the bytes of a .glb file
+/// with all buffers and images of files in it. Everything else stays: other scenes, materials,
+/// animations, extras, extensions, and where nodes stand without an animation.
 ///
 /// - Primitives of instances with lightmaps become indexed triangles with TEXCOORD_1 as floats, or
 ///   the next free set if a texture of their material uses TEXCOORD_1. Triangles without area are
@@ -51,6 +53,7 @@ struct GltfLightmaps {
 /// number of places is not that of the scene's instances, and if UVs do not fit the triangles of an
 /// instance, which the message names.
 [[nodiscard]] Result<std::vector<std::byte>> make_lightmap_glb(const std::string& path,
-                                                               const GltfLightmaps& lightmaps);
+                                                               const GltfLightmaps& lightmaps,
+                                                               const SceneReading& reading = {});
 
 }  // namespace tetralight

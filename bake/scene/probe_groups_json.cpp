@@ -250,6 +250,10 @@ Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path) {
     if (!file) return file.error();
     auto groups = parse_groups(file->bytes());
     if (!groups) return in_member(groups.error().in(path), "");
+    for (ProbeGroup& group : *groups) {
+        if (!group.positions.empty()) continue;
+        group.empty_warning = str_cat(path, ": group \"", group.name, "\" has no probes");
+    }
     return groups;
 }
 

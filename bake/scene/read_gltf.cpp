@@ -20,6 +20,7 @@
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/gltf_reflection_places.h>
 #include <tetralight/bake/scene/detail/gltf_skin.h>
+#include <tetralight/bake/scene/detail/gltf_transform.h>
 #include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/bake/scene/detail/scene_contents.h>
 #include <tetralight/base/str_cat.h>
@@ -32,7 +33,7 @@ void append_warnings(Scene& scene, const std::vector<std::string>& warnings) {
 }
 
 Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps, Scene& scene,
-                    detail::GltfMeshes& meshes) {
+                    detail::GltfMeshes& meshes, detail::PartList& parts) {
     auto read = detail::read_meshes(document, normal_maps);
     if (!read) return read.error();
     const auto nodes = detail::flatten_nodes(document);
@@ -47,7 +48,7 @@ Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps
     scene.materials = std::move(materials->materials);
     scene.textures = std::move(materials->textures);
     scene.normal_maps = std::move(materials->normal_maps);
-    scene.parts = std::move(materials->parts);
+    parts.append(materials->parts);
     detail::assign_default_material(scene.materials, scene.meshes);
     append_warnings(scene, meshes.warnings);
     append_warnings(scene, materials->warnings);
@@ -65,8 +66,23 @@ void warn_about_skins(const detail::GltfDocument& document,
     }
 }
 
+void add_flat_groups(const detail::GltfDocument& document,
+                     std::span<const detail::GltfWorldNode> nodes, detail::PartList& parts) {
+    ScenePart part;
+    part.use = PartUse::Approximated;
+    part.name = "probe groups scaled to 0";
+    part.note = "their probes lie in a plane, on a line or at a point";
+    part.remedy = "give the group a scale above 0 on every axis";
+    part.changes_light = true;
+    for (const detail::GltfWorldNode& placed : nodes) {
+        const detail::GltfNode& node = document.nodes[placed.node];
+        if (!node.is_probe_group || detail::is_invertible(placed.world_from_node)) continue;
+        parts.add(part, detail::gltf_place("node", placed.node, node.name));
+    }
+}
+
 Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes& meshes,
-                 Scene& scene) {
+                 Scene& scene, detail::PartList& parts) {
     const auto nodes = detail::flatten_nodes(document);
     if (!nodes) return nodes.error();
     auto lights = detail::read_lights(document, *nodes);
@@ -79,7 +95,8 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     if (!portals) return portals.error();
     auto places = detail::read_gltf_reflection_places(document, *nodes);
     if (!places) return places.error();
-    auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
+    auto instances =
+        detail::read_instances(document, *nodes, probe_groups->is_probe, meshes, parts);
     if (!instances) return instances.error();
     scene.lights = std::move(lights->lights);
     scene.light_names = std::move(lights->names);
@@ -91,8 +108,9 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     auto scene_nodes = detail::scene_nodes(document, *nodes);
     if (!scene_nodes) return scene_nodes.error();
     scene.nodes = std::move(*scene_nodes);
-    scene.cameras = detail::read_cameras(document, *nodes);
     append_warnings(scene, lights->warnings);
+    scene.cameras = detail::read_cameras(document, *nodes, scene.warnings);
+    add_flat_groups(document, *nodes, parts);
     warn_about_skins(document, *nodes, scene);
     return Ok{};
 }
@@ -118,23 +136,28 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
     return Ok{};
 }
 
-Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
+/// `parts`: what is not read as it is.
+Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene,
+               detail::PartList& parts) {
     detail::GltfMeshes meshes;
-    const auto surfaces = add_surfaces(document, reading.normal_maps, scene, meshes);
+    const auto surfaces = add_surfaces(document, reading.normal_maps, scene, meshes, parts);
     if (!surfaces) return surfaces;
     const auto sky = add_sky(document, scene);
     if (!sky) return sky;
-    return add_nodes(document, meshes, scene);
+    return add_nodes(document, meshes, scene, parts);
 }
 
 /// The table of what was read, and warnings of what is left out and changes the light.
-void add_parts(const detail::GltfDocument& document, Scene& scene) {
+void add_parts(const detail::GltfDocument& document, const SceneReading& reading,
+               const detail::PartList& not_read, Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
-    detail::add_light_unit(scene, parts);
+    if (reading.light_unit == LightUnit::Lux) {
+        detail::add_light_unit(document, scene, reading.has_other_sky, parts);
+    }
     detail::add_length_unit(scene, parts);
+    parts.append(not_read.parts());
     parts.append(document.parts);
-    parts.append(scene.parts);
     scene.parts = parts.parts();
     for (const ScenePart& part : scene.parts) {
         if (part.changes_light) scene.warnings.push_back(detail::part_warning(part));
@@ -152,23 +175,19 @@ void divide_intensities(detail::GltfDocument& document) {
 }  // namespace
 
 Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
-    auto document = detail::read_gltf_document(path, reading.scene);
+    auto document = detail::read_posed_document(path, reading);
     if (!document) return document.error();
     if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
-    if (reading.time) {
-        const auto animation = detail::find_animation(*document, reading.animation);
-        if (!animation) return animation.error().in(path);
-        const auto moved = detail::pose_nodes(*document, *animation, *reading.time);
-        if (!moved) return moved.error().in(path);
-    }
     Scene scene;
     scene.memory = document->memory;
     scene.memory.image_bytes = detail::image_memory(*document, reading.normal_maps);
     const auto fits = detail::check_reading_memory(scene.memory);
     if (!fits) return fits.error().in(path);
-    const auto status = add_all(*document, reading, scene);
+    scene.warnings = document->warnings;
+    detail::PartList not_read;
+    const auto status = add_all(*document, reading, scene, not_read);
     if (!status) return status.error().in(path);
-    add_parts(*document, scene);
+    add_parts(*document, reading, not_read, scene);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;
 }

@@ -33,6 +33,8 @@ struct SceneReading {
     /// The name of the animation, or its index; empty: the first one.
     std::string animation{};
     LightUnit light_unit = LightUnit::Lux;
+    /// True if the caller adds a sky of its own. Only warnings depend on it.
+    bool has_other_sky = false;
 };
 
 /// Reads a glTF 2.0 scene (.gltf or .glb): its default scene's node hierarchy flattened into

@@ -129,6 +129,7 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
         merged.group_names.push_back(group.name);
         merged.group_dering.push_back(group.dering);
         merged.group_rendering_layers.push_back(group.rendering_layers);
+        merged.group_empty_warnings.push_back(group.empty_warning);
         for (uint32_t i = 0; i < group_positions->size(); ++i) {
             merged.sources.push_back({g, i, 0});
             positions.push_back((*group_positions)[i]);

@@ -41,6 +41,8 @@ struct MergedProbes {
     /// One a group: the rendering layers of its probes. A welded probe is on those of all its
     /// sources.
     std::vector<uint32_t> group_rendering_layers;
+    /// One a group: `ProbeGroup::empty_warning`.
+    std::vector<std::string> group_empty_warnings;
     /// One a group: true if its probes are part of a lattice. They were moved exactly onto it.
     std::vector<bool> group_is_lattice;
     /// The longest of these moves, metres: a few float steps of the group's largest coordinate, and

@@ -25,7 +25,10 @@ void add_empty_groups(const MergedProbes& probes, std::vector<std::string>& warn
     for (const ProbeSource& source : probes.sources) is_empty[source.group] = false;
     for (size_t group = 0; group < is_empty.size(); ++group) {
         if (!is_empty[group]) continue;
-        warnings.push_back(str_cat("group \"", probes.group_names[group], "\" has no probes"));
+        const std::string& warning = probes.group_empty_warnings[group];
+        warnings.push_back(warning.empty()
+                               ? str_cat("group \"", probes.group_names[group], "\" has no probes")
+                               : warning);
     }
     if (!probes.sources.empty()) return;
     warnings.emplace_back("there are no probes: the volume answers with its ambient light alone");

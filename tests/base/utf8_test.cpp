@@ -38,5 +38,24 @@ TEST(Utf8, RefusesNamesWithControlCharactersOrOtherBytes) {
     EXPECT_EQ(error_text(check_characters("\xff").error()), "the name is not UTF-8");
 }
 
+TEST(Utf8, ControlsBecomeEscapes) {
+    EXPECT_EQ(without_controls("a\nb\x1b[31m\x7f"), "a\\u000ab\\u001b[31m\\u007f");
+    EXPECT_EQ(without_controls("\xc2\x85"), "\\u0085");
+    const std::pair<const char*, const char*> marks[] = {
+        {"\u200e", "\\u200e"}, {"\u200f", "\\u200f"}, {"\u202a", "\\u202a"},
+        {"\u202e", "\\u202e"}, {"\u2066", "\\u2066"}, {"\u2069", "\\u2069"}};
+    for (const auto& [mark, escape] : marks)
+        EXPECT_EQ(without_controls(std::string("a") + mark + "b"), std::string("a") + escape + "b");
+    for (const char* text :
+         {"", "W\u00fcrfel \u00a0 \u200d\u2029\u202f\u2065\u206a \U0001f600", "\xff\xe2\x80"})
+        EXPECT_EQ(without_controls(text), text);
+}
+
+TEST(Utf8, ControlsOfNamesBecomeBlanks) {
+    EXPECT_EQ(with_blanks_for_controls("tab\tnew\nline\x7f\xc2\x85."), "tab new line  .");
+    EXPECT_EQ(with_blanks_for_controls("W\u00fcrfel\u202e"), "W\u00fcrfel\u202e");
+    EXPECT_FALSE(has_control_character(with_blanks_for_controls("\r\n\xc2\x9f")));
+}
+
 }  // namespace
 }  // namespace tetralight

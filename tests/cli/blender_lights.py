@@ -76,3 +76,9 @@ export("bounce")
 new_scene()
 bpy.context.scene["sky"] = {"radiance": [0.05, 0.05, 0.05]}
 export("sky")
+bpy.context.scene["sky"] = [0.05, 0.05, 0.05]
+export("sky_array")
+bpy.context.scene["sky"] = 0.05
+export("sky_number")
+bpy.context.scene["sky"] = '{"radiance": [0.05, 0.05, 0.05]}'
+export("sky_text")

@@ -145,9 +145,39 @@ TEST_F(Explain, AnimationsNeedATimeAndCommandsWithOptionalScenesTheScene) {
                          "--animation: needs --time"));
     EXPECT_TRUE(contains(misuse({"explain", "s.gltf", "--time", "-1"}), "--time: -1 is not"));
     EXPECT_TRUE(contains(misuse({"validate", "v.probes", "--time", "1"}), "--time: needs --scene"));
-    EXPECT_TRUE(contains(misuse({"lightmap", "s.gltf", "-o", "s.lightmaps", "--scene-name", "day",
-                                 "--unwrapped", "uv1.glb"}),
-                         "--unwrapped"));
+}
+
+TEST_F(Explain, LightmapsAndTheirScenesAreOfTheSceneOfThisName) {
+    EXPECT_TRUE(contains(fail({"unwrap", "s.gltf", "-o", "u.glb", "--scene-name", "night"}),
+                         "s.gltf: the scene has no object that takes a lightmap"));
+    std::string turned = scene_with("3");  // the scene with the wall is not the default one
+    turned.replace(turned.find(R"("scene": 0)"), 10, R"("scene": 1)");
+    write("turned.gltf", turned);
+    EXPECT_TRUE(contains(fail({"unwrap", "turned.gltf", "-o", "u.glb"}), "has no object"));
+    EXPECT_EQ(run_json({"unwrap", "turned.gltf", "-o", "u.glb", "--scene-name", "day"})["objects"],
+              1);
+    succeed({"lightmap", "turned.gltf", "-o", "l.lightmaps", "-t", "2", "-s", "1", "--scene-name",
+             "day", "--unwrapped", "v.glb"});
+    succeed({"export", "l.lightmaps", "--scene", "turned.gltf", "-o", "lit.glb", "--scene-name",
+             "day"});
+    fail({"export", "l.lightmaps", "--scene", "turned.gltf", "-o", "no.glb"});
+    for (const char* written : {"u.glb", "v.glb", "lit.glb"}) {
+        EXPECT_EQ(run_json({"explain", written})["triangles"], 0) << written;
+        EXPECT_EQ(run_json({"explain", written, "--scene-name", "day"})["triangles"], 1) << written;
+        const char* place = written[0] == 'l' ? "MX_lightmap" : "lightmap_rectangle";
+        EXPECT_TRUE(contains(read(written), place)) << written;
+    }
+}
+
+TEST_F(Explain, NamesOfLightsWithLineBreaksAreReadWithBlanks) {
+    std::string named = scene_with("3");
+    named.replace(named.find(R"("name": "lamp")"), 14, R"("name": "la\nmp\u202e")");
+    write("named.gltf", named);
+    write("five.json", kFiveProbes);
+    const CommandResult result =
+        succeed({"bake", "named.gltf", "-g", "five.json", "-s", "16", "-o", "named.probes"});
+    EXPECT_TRUE(contains(result.err, "named.gltf: names (node 1 \"la mp\\u202e\"): have blanks"))
+        << result.err;
 }
 
 TEST_F(Explain, WattsBakeAsTheSameIntensityInLux) {

@@ -62,7 +62,8 @@ TEST_F(ProbeHealth, InfoCountsWhatWasLeftOut) {
 TEST_F(ProbeHealth, BakeNamesTheGroupOfProbesInGeometry) {
     const CommandResult result = succeed({"bake", kCourtyard, "-g", "ground.json", "-o", "v.probes",
                                           "-s", "64", "--virtual-offset", "0.1"});
-    EXPECT_TRUE(contains(result.err, "group \"ground\": 1 of 3 probes lie inside geometry"));
+    EXPECT_TRUE(
+        contains(result.err, "ground.json: group \"ground\": 1 of 3 probes lie inside geometry"));
     EXPECT_TRUE(contains(result.out, "(0 welded, 1 lattice, 1 moved, 1 left out)")) << result.out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/scene_reading.h>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/settings/read_values.h>
 #include "tests/cli/command_fixture.h"
 
@@ -40,6 +41,13 @@ TEST(SceneReadingSettings, EverySettingIsTaken) {
     EXPECT_EQ(reading.light_unit, LightUnit::Watt);
 }
 
+TEST(SceneReadingSettings, ASkyOfTheCommandIsKnown) {
+    Json settings = {{"scene", "s.glb"}, {"output", "v.probes"}};
+    EXPECT_FALSE(scene_reading(values_of(settings::kBake, settings)).has_other_sky);
+    settings["sky"] = 0.5;
+    EXPECT_TRUE(scene_reading(values_of(settings::kBake, settings)).has_other_sky);
+}
+
 TEST(SceneReadingSettings, CommandsWithFewerOfThemHaveTheDefaultsOfTheRest) {
     const SceneReading groups = scene_reading(values_of(
         settings::kTetrahedralize, {{"groups", {"s.glb"}}, {"output", "v.probes"}, {"time", 2}}));
@@ -48,7 +56,32 @@ TEST(SceneReadingSettings, CommandsWithFewerOfThemHaveTheDefaultsOfTheRest) {
     const SceneReading unwrapped = scene_reading(values_of(
         settings::kUnwrap, {{"scene", "s.glb"}, {"output", "u.glb"}, {"light_unit", "watt"}}));
     EXPECT_EQ(unwrapped.scene, "");
+    EXPECT_EQ(
+        scene_reading(values_of(settings::kUnwrap,
+                                {{"scene", "s.glb"}, {"output", "u.glb"}, {"scene_name", "night"}}))
+            .scene,
+        "night");
     EXPECT_EQ(unwrapped.light_unit, LightUnit::Watt);
+}
+
+TEST(SizeHint, IsForErrorsAboutTheSizeOfLargeScenes) {
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.meshes[0].positions = {{0, 0, 0}, {900, 0, 0}, {0, 0, 900}};
+    scene.instances.resize(1);
+    scene.instances[0].mesh = 0;
+    const auto hinted = [&](const Error& error) {
+        return error_text(cli::with_size_hint(error, scene));
+    };
+    const std::string hint =
+        "many; the scene is 900 m wide; if its unit is a centimetre, scale it by 0.01";
+    for (const char* field : {"max_probes", "texels_per_meter"})
+        EXPECT_EQ(hinted({ErrorCode::InvalidArgument, field, "", "many"}), hint);
+    EXPECT_EQ(hinted({ErrorCode::OutOfResources, "many"}), hint);
+    EXPECT_EQ(hinted({ErrorCode::InvalidArgument, "spacing", "", "many"}), "many");
+    scene.meshes[0].positions[1].x = 9.0f;
+    scene.meshes[0].positions[2].z = 9.0f;
+    EXPECT_EQ(hinted({ErrorCode::InvalidArgument, "max_probes", "", "many"}), "many");
 }
 
 class SceneFile : public CommandFixture {};

@@ -148,6 +148,18 @@ class Walk(FromBlender):
         for bright, dark in zip(pixel(lit, *front), pixel(unlit, *front)):
             self.assertGreater(bright, dark + 50)
 
+    def test_lumens_of_the_default_lamp_are_noticed(self):
+        lumens = self.folder / "corner_standard.glb"
+        code = (ROOT / "examples/blender/make_corner.py").read_text().replace('LIGHTING = "COMPAT"', 'LIGHTING = "SPEC"')
+        script = self.folder / "make_corner_standard.py"
+        script.write_text(code)
+        run_blender(script, lumens)
+        self.assertIn("--light-unit watt", tetralight("explain", lumens).stdout)
+        placed = tetralight("grid", lumens, "--spacing", 4, "-o", self.folder / "places.json")
+        self.assertIn("--light-unit watt", placed.stderr)
+        self.assertNotIn("--light-unit", tetralight("explain", lumens, "--light-unit", "watt").stdout)
+        self.assertNotIn("--light-unit", tetralight("explain", self.scene).stdout)
+
     def test_the_cube_moves(self):
         lightmaps = self.folder / "corner.lightmaps"
         tetralight("lightmap", self.scene, "-o", lightmaps, "--samples", 4)
@@ -204,8 +216,10 @@ class Units(FromBlender):
         self.assert_near(self.irradiance("bounce", (0, -1, 0)), albedo * 3, 0.02)
 
     def test_sky_of_custom_properties_shines_from_everywhere(self):
-        for normal in ((0, 1, 0), (0.6, -0.8, 0)):
-            self.assert_near(self.irradiance("sky", normal), 0.05 * math.pi)
+        for name in ("sky", "sky_array", "sky_number", "sky_text"):
+            for normal in ((0, 1, 0), (0.6, -0.8, 0)):
+                with self.subTest(name):
+                    self.assert_near(self.irradiance(name, normal), 0.05 * math.pi)
 
 
 if __name__ == "__main__":

@@ -50,7 +50,7 @@ TEST_F(Unwrap, WrittenUvsDoNotOverlap) {
 TEST_F(Unwrap, RefusesScenesWithoutObjectsAndItsOwnInput) {
     write("empty.gltf", kEmptyScene);
     EXPECT_TRUE(contains(fail(arguments("x.glb", {}, "empty.gltf")),
-                         "empty.gltf: has no object that takes a lightmap"));
+                         "empty.gltf: the scene has no object that takes a lightmap"));
     succeed(arguments("uv1.glb"));
     EXPECT_TRUE(contains(fail_and_keep("uv1.glb", arguments("uv1.glb", {}, "uv1.glb")),
                          "is an input of this command"));

@@ -129,7 +129,7 @@ TEST(Tables, CommandsWithASceneSayHowItIsRead) {
     for (const Table* table : all_tables()) {
         if (table->find("scene") == nullptr) continue;
         ++count;
-        for (const char* name : {"time", "animation", "light_unit"})
+        for (const char* name : {"scene_name", "time", "animation", "light_unit"})
             EXPECT_NE(table->find(name), nullptr) << table->command << " " << name;
     }
     EXPECT_GE(count, 12);

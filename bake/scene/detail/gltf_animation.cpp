@@ -254,4 +254,14 @@ Status pose_nodes(GltfDocument& document, uint32_t animation, double time) {
     return Ok{};
 }
 
+Result<GltfDocument> read_posed_document(const std::string& path, const SceneReading& reading) {
+    auto document = read_gltf_document(path, reading.scene);
+    if (!document || !reading.time) return document;
+    const auto animation = find_animation(*document, reading.animation);
+    if (!animation) return animation.error().in(path);
+    const auto moved = pose_nodes(*document, *animation, *reading.time);
+    if (!moved) return moved.error().in(path);
+    return document;
+}
+
 }  // namespace tetralight::detail

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
@@ -13,6 +14,10 @@ namespace tetralight::detail {
 /// invalid_argument (field "animation") if there is no such animation.
 [[nodiscard]] Result<uint32_t> find_animation(const GltfDocument& document,
                                               const std::string& text);
+
+/// As `read_gltf_document`, with the scene and the pose that `reading` chooses.
+[[nodiscard]] Result<GltfDocument> read_posed_document(const std::string& path,
+                                                       const SceneReading& reading);
 
 /// Puts nodes where an animation has them at a time, in seconds: sets their translation, rotation,
 /// scale and weights, and `parent_from_node`. Before the first key the first value applies, after

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include <tetralight/bake/scene/detail/gltf_transform.h>
+
 namespace tetralight::detail {
 namespace {
 
@@ -18,14 +20,19 @@ glm::dmat4 without_scale(glm::dmat4 matrix) {
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const GltfDocument& document,
-                                 std::span<const GltfWorldNode> nodes) {
+std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const GltfWorldNode> nodes,
+                                 std::vector<std::string>& warnings) {
     std::vector<Camera> cameras;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
         if (node.camera == kNoIndex) continue;
         const GltfCamera& source = document.cameras[node.camera];
         if (!source.fov_y_radians && !source.half_height) continue;
+        if (!is_invertible(placed.world_from_node)) {
+            warnings.push_back(gltf_place("node", placed.node, node.name) +
+                               ": is scaled to 0, so that its camera looks nowhere; left out");
+            continue;
+        }
         Camera camera;
         camera.name = node.name.empty() ? source.name : node.name;
         camera.world_from_camera = without_scale(placed.world_from_node);

@@ -12,6 +12,7 @@
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_extension_table.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
+#include <tetralight/bake/scene/detail/gltf_sky.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/json/json_text.h>
@@ -204,8 +205,8 @@ Result<json> parse_gltf_json(std::string_view json_text, GltfContainer container
     if (auto status = check_json_shape(json_text); !status) return status.error();
     try {
         json document = json::parse(json_text);
-        const auto status = check_document(document, container);
-        if (!status) return status.error();
+        if (auto status = expand_skies(document); !status) return status.error();
+        if (auto status = check_document(document, container); !status) return status.error();
         return document;
     } catch (const std::bad_alloc&) {
         throw;

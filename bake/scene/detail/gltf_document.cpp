@@ -20,6 +20,7 @@
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_memory.h>
 #include <tetralight/bake/scene/detail/gltf_meshopt.h>
+#include <tetralight/bake/scene/detail/gltf_names.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
 #include <tetralight/bake/scene/detail/gltf_unread.h>
@@ -88,12 +89,14 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     if (!chunks) return chunks.error();
     const std::string_view json_text(reinterpret_cast<const char*>(chunks->json.data()),
                                      chunks->json.size());
-    const auto source = parse_gltf_json(json_text, container);
+    auto source = parse_gltf_json(json_text, container);
     if (!source) return source.error();
+    std::vector<std::string> warnings = clean_names(*source);
     const auto chosen = find_scene(*source, scene);
     if (!chosen) return chosen.error();
     GltfDocument document = document_from(*source);
     document.path = path;
+    document.warnings = std::move(warnings);
     document.memory = geometry_memory(*source, document, bytes);
     if (auto status = check_reading_memory(document.memory); !status) return status.error();
     auto buffers = read_buffers(*source, folder_of(path), chunks->binary);

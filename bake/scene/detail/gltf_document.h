@@ -305,6 +305,8 @@ struct GltfNode {
 struct GltfDocument {
     /// The file's path. URIs are relative to its folder, and messages begin with it.
     std::string path;
+    /// The program that wrote the file, as it calls itself: `asset.generator`.
+    std::string generator;
     std::vector<std::vector<unsigned char>> buffers;
     std::vector<GltfBufferView> buffer_views;
     std::vector<GltfAccessor> accessors;
@@ -331,6 +333,8 @@ struct GltfDocument {
     std::vector<ScenePart> parts;
     /// What reading takes, without the images.
     SceneMemory memory;
+    /// Without the path.
+    std::vector<std::string> warnings;
 };
 
 /// Reads and checks a .gltf or .glb file and its buffers, but not its image files. The scene that

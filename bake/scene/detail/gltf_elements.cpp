@@ -273,6 +273,7 @@ auto read_all(const json& document, std::string_view path, Read read) {
 
 GltfDocument document_from(const json& source) {
     GltfDocument document;
+    document.generator = string_at(source, "asset/generator");
     document.buffer_views = read_all(source, "bufferViews", buffer_view_from);
     document.accessors = read_all(source, "accessors", accessor_from);
     document.meshes = read_all(source, "meshes", mesh_from);

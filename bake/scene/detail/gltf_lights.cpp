@@ -77,8 +77,24 @@ Status read_cone(const GltfLight& source, Light& light) {
     return Ok{};
 }
 
+/// The node's X axis, without what of it is along Z; 0 if there is none.
+glm::dvec3 tangent_from(const glm::dmat4& world_from_node) {
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(world_from_node[2]));
+    const glm::dvec3 x(world_from_node[0]);
+    return x - forward * glm::dot(forward, x);
+}
+
+/// What a light does not have on a node that is scaled to 0; null if it has all that it needs.
+const char* missing_axis(const glm::dmat4& world_from_node, LightType type) {
+    if (type == LightType::Point) return nullptr;
+    if (glm::dvec3(world_from_node[2]) == glm::dvec3(0.0)) return "direction";
+    const bool has_width =
+        type != LightType::Rectangle || glm::length(tangent_from(world_from_node)) > 0.0;
+    return has_width ? nullptr : "width";
+}
+
 /// Lights shine along their node's −Z; a rectangle's width is along its X. The node's scale and
-/// mirroring have no effect (KHR_lights_punctual).
+/// mirroring have no effect (KHR_lights_punctual). Precondition: no axis is missing.
 Status place_light(const glm::dmat4& world_from_node, Light& light) {
     light.position = glm::vec3(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -89,23 +105,19 @@ Status place_light(const glm::dmat4& world_from_node, Light& light) {
     if (light.type == LightType::Point) return Ok{};
     const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
     const double length = glm::length(direction);
-    if (!(length > 0.0) || !std::isfinite(length)) {
+    if (!std::isfinite(length)) {
         return Error{ErrorCode::Corrupt,
                      str_cat("direction is undefined: its node is scaled to ", length)};
     }
     light.direction = glm::vec3(direction / length);
-    if (light.type != LightType::Rectangle) return Ok{};
-    const glm::dvec3 forward = direction / length;
-    const glm::dvec3 x(world_from_node[0]);
-    const glm::dvec3 across = x - forward * glm::dot(forward, x);
-    if (!(glm::length(across) > 0.0)) {
-        return Error{ErrorCode::Corrupt, "width is undefined: its node has no X axis"};
+    if (light.type == LightType::Rectangle) {
+        light.tangent = glm::vec3(glm::normalize(tangent_from(world_from_node)));
     }
-    light.tangent = glm::vec3(glm::normalize(across));
     return Ok{};
 }
 
-/// Applies extras and the node's transform. A field is that of the node where the node is at fault.
+/// Applies extras and, unless an axis is missing, the node's transform. A field is that of the node
+/// where the node is at fault.
 Status finish_light(const GltfLightExtras& of_node, const GltfLightExtras& of_light,
                     const GltfWorldNode& placed, Status (*apply)(const GltfLightExtras&, Light&),
                     Light& light) {
@@ -117,6 +129,7 @@ Status finish_light(const GltfLightExtras& of_node, const GltfLightExtras& of_li
             !without_light && without_light.error().field == status.error().field;
         return is_of_node ? in_member(status.error(), node_member) : status.error();
     }
+    if (missing_axis(placed.world_from_node, light.type) != nullptr) return Ok{};
     if (const auto status = place_light(placed.world_from_node, light); !status) {
         return in_member(status.error(), node_member);
     }
@@ -188,6 +201,17 @@ Result<Light> read_area_light(const GltfAreaLight& source, LightType type,
     return light;
 }
 
+/// Adds a warning, and returns true, if a light lacks an axis on a node that is scaled to 0.
+bool is_left_out(const GltfNode& node, const GltfWorldNode& placed, LightType type,
+                 GltfLights& lights) {
+    const char* missing = missing_axis(placed.world_from_node, type);
+    if (missing == nullptr) return false;
+    lights.warnings.push_back(str_cat(gltf_place("node", placed.node, node.name),
+                                      ": is scaled to 0, so that its light has no ", missing,
+                                      "; left out"));
+    return true;
+}
+
 /// Adds the light of KHR_lights_punctual of a node, if it has one.
 Status add_punctual_light(const GltfDocument& document, const GltfWorldNode& placed,
                           GltfLights& lights) {
@@ -201,6 +225,7 @@ Status add_punctual_light(const GltfDocument& document, const GltfWorldNode& pla
     }
     const auto light = read_light(source, *type, placed, node);
     if (!light) return in_element(light.error(), "lights", node.light, source.name);
+    if (is_left_out(node, placed, light->type, lights)) return Ok{};
     lights.lights.push_back(*light);
     lights.names.push_back(node.name.empty() ? source.name : node.name);
     return Ok{};
@@ -218,6 +243,7 @@ Status add_area_light(const GltfDocument& document, const GltfWorldNode& placed,
             unknown_type("area light", node.area_light, source.name, source.type));
         return Ok{};
     }
+    if (is_left_out(node, placed, *type, lights)) return Ok{};
     const auto light = read_area_light(source, *type, placed, node);
     if (!light) return in_element(light.error(), "area lights", node.area_light, source.name);
     if (!source.intensity) {

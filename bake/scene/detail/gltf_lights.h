@@ -18,7 +18,8 @@ struct GltfLights {
     std::vector<std::string> warnings;
 };
 
-/// The lights of the nodes, placed in the world.
+/// The lights of the nodes, placed in the world. Leaves out those to which a scale of 0 leaves no
+/// direction.
 [[nodiscard]] Result<GltfLights> read_lights(const GltfDocument& document,
                                              std::span<const GltfWorldNode> nodes);
 

@@ -8,6 +8,7 @@
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/glb_container.h>
+#include <tetralight/bake/scene/detail/gltf_animation.h>
 #include <tetralight/bake/scene/detail/gltf_references.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/base/file.h>
@@ -229,8 +230,9 @@ Result<std::vector<std::byte>> GltfParts::glb() {
     return make_glb(json.dump(), binary);
 }
 
-Result<std::vector<std::byte>> rewrite_gltf(const std::string& path, const WriteGlb& write) {
-    const auto document = read_gltf_document(path);
+Result<std::vector<std::byte>> rewrite_gltf(const std::string& path, const SceneReading& reading,
+                                            const WriteGlb& write) {
+    const auto document = read_posed_document(path, reading);
     if (!document) return document.error();
     try {
         auto bytes = write(*document);

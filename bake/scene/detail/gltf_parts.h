@@ -13,6 +13,7 @@
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_raw_elements.h>
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 
 // A glTF file taken apart, so that some of it can change and the rest stays as it is.
@@ -69,10 +70,12 @@ class GltfParts {
 /// Makes the bytes of a .glb file of a document.
 using WriteGlb = std::function<Result<std::vector<std::byte>>(const GltfDocument& document)>;
 
-/// What `write` makes of the glTF file at a path. Errors begin with the path. Returns corrupt also
+/// What `write` makes of the glTF file at a path, of whose scenes it is given the one that
+/// `reading` chooses, in its pose. Errors begin with the path. Returns corrupt also
 /// if `write` throws because JSON that `read_gltf` does not read is of a wrong type: animations,
 /// for example.
 [[nodiscard]] Result<std::vector<std::byte>> rewrite_gltf(const std::string& path,
+                                                          const SceneReading& reading,
                                                           const WriteGlb& write);
 
 }  // namespace tetralight::detail

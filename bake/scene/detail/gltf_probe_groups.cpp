@@ -70,14 +70,34 @@ std::vector<glm::dvec3> take_children(const GltfDocument& document, const GltfNo
     return positions;
 }
 
+/// What a warning says of a group without probes.
+std::string empty_warning(const GltfDocument& document, const GltfWorldNode& placed) {
+    const GltfNode& node = document.nodes[placed.node];
+    std::string reason =
+        "it has neither a mesh of points nor child nodes (Blender: export Loose "
+        "Points)";
+    if (node.mesh != kNoIndex) {
+        reason = str_cat(gltf_place("mesh", node.mesh, document.meshes[node.mesh].name),
+                         " has no points, but triangles or lines; delete its edges and faces, or "
+                         "give the node child nodes");
+    }
+    return str_cat(document.path, ": ", gltf_place("node", placed.node, node.name),
+                   ": the group has no probes: ", reason);
+}
+
 Result<ProbeGroup> read_group(const GltfDocument& document, const GltfWorldNode& placed,
                               std::vector<bool>& is_probe) {
     const GltfNode& node = document.nodes[placed.node];
     auto positions = read_mesh_points(document, node.mesh);
     if (!positions) return positions.error();
     if (positions->empty()) *positions = take_children(document, node, is_probe);
-    return ProbeGroup{node.name, placed.world_from_node, std::move(*positions), node.dering,
-                      node.rendering_layers.value_or(kAllRenderingLayers)};
+    std::string warning = positions->empty() ? empty_warning(document, placed) : "";
+    return ProbeGroup{node.name,
+                      placed.world_from_node,
+                      std::move(*positions),
+                      node.dering,
+                      node.rendering_layers.value_or(kAllRenderingLayers),
+                      std::move(warning)};
 }
 
 }  // namespace

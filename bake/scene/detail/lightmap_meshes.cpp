@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/bake/scene/detail/gltf_instances.h>
 #include <tetralight/bake/scene/detail/gltf_skin.h>
 #include <tetralight/base/str_cat.h>
 
@@ -17,15 +18,6 @@ std::map<GltfPrimitivePlace, uint32_t> scene_meshes(const GltfMeshes& meshes) {
             result[{mesh, meshes.primitive_of[scene_mesh]}] = scene_mesh;
     }
     return result;
-}
-
-size_t transform_count(const GltfDocument& document, const GltfNode& node) {
-    if (!node.instancing) return 1;
-    for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
-        const auto attribute = node.instancing->find(name);
-        if (attribute != node.instancing->end()) return document.accessors[attribute->second].count;
-    }
-    return 0;
 }
 
 Error count_error(size_t instances, size_t places) {
@@ -88,11 +80,14 @@ Result<std::vector<LightmapObject>> lightmap_objects(const GltfDocument& documen
         LightmapObject object{placed.node, is_in_world ? 1 : transform_count(document, node), {}};
         const size_t primitives = document.meshes[node.mesh].primitives.size();
         const auto& scene_meshes = meshes.meshes_of_node(document, placed.node);
-        const size_t count = object.transform_count * scene_meshes.size();
+        const auto placements =
+            is_in_world ? std::vector<GltfPlacement>{{}} : mesh_placements(document, placed);
+        if (!placements) return in_element(placements.error(), "nodes", placed.node, node.name);
+        const size_t count = placements->size() * scene_meshes.size();
         if (instance + count > places.size()) return count_error(instance + count, places.size());
         object.places.resize(object.transform_count * primitives);
         for (size_t i = 0; i < count; ++i, ++instance) {
-            const size_t transform = i / scene_meshes.size();
+            const size_t transform = (*placements)[i / scene_meshes.size()].transform;
             const uint32_t primitive = meshes.primitive_of[scene_meshes[i % scene_meshes.size()]];
             object.places[transform * primitives + primitive] = places[instance];
         }

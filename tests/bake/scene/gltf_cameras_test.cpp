@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/bake/scene/gltf_builder.h"
@@ -51,6 +52,19 @@ TEST(GltfCameras, AreNamedAfterTheirNodeOrElseByTheirOwnName) {
     ASSERT_EQ(cameras.size(), 2u);
     EXPECT_EQ(cameras[0].name, "eye");
     EXPECT_EQ(cameras[1].name, "lens");
+}
+
+TEST(GltfCameras, AreLeftOutWhereTheScaleIs0) {
+    GltfBuilder gltf;
+    gltf.add_root(
+        {{"name", "eye"}, {"camera", gltf.add("cameras", perspective(0.5))}, {"scale", {0, 0, 0}}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_TRUE(scene->cameras.empty());
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_TRUE(scene->warnings[0].ends_with(
+        "scene.glb: node 0 \"eye\": is scaled to 0, so that its camera looks nowhere; left out"))
+        << scene->warnings[0];
 }
 
 TEST(GltfCameras, LoseTheScaleOfTheirNode) {
@@ -113,6 +127,24 @@ TEST(GltfSky, IsTheEnvironmentsRadiance) {
     EXPECT_EQ(scene->environment, (Environment{{0.5f, 1.0f, 2.0f}, {}, 0.0f}));
 }
 
+TEST(GltfSky, MayBeWhatDialogsForPropertiesOffer) {
+    const std::pair<Json, glm::vec3> skies[] = {
+        {{0.5, 1, 2}, {0.5f, 1.0f, 2.0f}},
+        {0.25, glm::vec3(0.25f)},
+        {0, glm::vec3(0.0f)},
+        {"0.25", glm::vec3(0.25f)},
+        {"[0.5, 1, 2]", {0.5f, 1.0f, 2.0f}},
+        {"{\"radiance\": [0.5, 1, 2]}", {0.5f, 1.0f, 2.0f}}};
+    GltfBuilder gltf = with_sky({});
+    for (const auto& [sky, radiance] : skies) {
+        gltf.json["scenes"][0]["extras"]["sky"] = sky;
+        const auto scene = gltf.read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        EXPECT_EQ(scene->environment, (Environment{radiance, {}, 0.0f})) << sky;
+        EXPECT_TRUE(scene->warnings.empty()) << sky;
+    }
+}
+
 TEST(GltfSky, IsBlackWhenTheFileDoesNotSay) {
     GltfBuilder gltf;
     gltf.add_root({{"mesh", gltf.add_triangle()}});
@@ -133,10 +165,31 @@ TEST(GltfSky, RejectsWhatIsNotThreeNumbers) {
 
 TEST(GltfSky, NamesASkyThatIsNone) {
     GltfBuilder gltf;
-    gltf.json["scenes"][0]["extras"] = {{"sky", 1}};
-    EXPECT_NE(gltf.error().find("extras/sky is not an object (1)"), std::string::npos);
-    gltf.json["scenes"][0]["extras"] = {{"sky", {{"radience", {1, 1, 1}}}}};
-    EXPECT_NE(gltf.error().find("extras/sky/radiance is missing"), std::string::npos);
+    const Json skies[] = {true,
+                          nullptr,
+                          Json::array(),
+                          {1, 2},
+                          {1, 2, 3, 4},
+                          {1, "2", 3},
+                          "blue",
+                          "",
+                          "[1, 2",
+                          "\"[1, 2, 3]\"",
+                          std::string(100, '['),
+                          Json::object(),
+                          {{"radiance", {1, 2}}},
+                          {{"radience", {1, 1, 1}}}};
+    for (const Json& sky : skies) {
+        gltf.json["scenes"][0]["extras"]["sky"] = sky;
+        const std::string error = gltf.error();
+        EXPECT_TRUE(error.starts_with("scene.glb: scene 0: extras.sky is ")) << error;
+        EXPECT_TRUE(error.ends_with("; write {\"radiance\": [r, g, b]}")) << error;
+    }
+    const auto scene = gltf.read();
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().field, "scenes[0].extras.sky");
+    gltf.json["scenes"][0]["extras"]["sky"] = -1;
+    EXPECT_EQ(gltf.error(), "scene.glb: scene: extras.sky.radiance (-1, -1, -1) is negative");
 }
 
 }  // namespace

@@ -101,15 +101,34 @@ TEST(GltfInstances, RejectsAZeroRotation) {
               "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: transform 1 is not finite");
 }
 
-TEST(GltfInstances, RejectsATransformThatLosesAnAxis) {
+/// The warnings, from behind the path.
+std::vector<std::string> warnings_of(const GltfBuilder& gltf) {
+    std::vector<std::string> lines;
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << (scene ? "" : error_text(scene.error()));
+    if (!scene) return lines;
+    for (const std::string& warning : scene->warnings)
+        lines.push_back(warning.substr(warning.find("scene.glb: ") + 11));
+    return lines;
+}
+
+TEST(GltfInstances, LeavesOutATransformThatLosesAnAxis) {
     // A quarter of a turn away, so that no column is zero in the product.
     const double sine = std::sin(std::numbers::pi / 8), cosine = std::cos(std::numbers::pi / 8);
     GltfBuilder gltf;
     const size_t child = gltf.add("nodes", {{"name", "leaf"}, {"mesh", gltf.add_triangle()}});
     gltf.json["nodes"][child]["rotation"] = {0, sine, 0, cosine};
     gltf.add_root({{"scale", {1, 1, 0}}, {"children", {child}}});
-    EXPECT_EQ(gltf.error(),
-              "scene.glb: node 0 \"leaf\": transform is not invertible; its mesh would be flat");
+    gltf.add_root({{"name", "hidden"}, {"mesh", 0}, {"scale", {0, 0, 0}}});
+    gltf.add_root({{"name", "seen"}, {"mesh", 0}});
+    const auto instances = instances_of(gltf);
+    ASSERT_EQ(instances.size(), 1u);
+    EXPECT_EQ(instances[0].name, "seen");
+    EXPECT_EQ(warnings_of(gltf),
+              std::vector<std::string>{
+                  "meshes scaled to 0 (node 0 \"leaf\" and 1 more): are left out: their transforms "
+                  "are not invertible; if they are to be seen, give them a scale above 0 on every "
+                  "axis"});
 }
 
 TEST(GltfInstances, SmallAndUnevenScalesAreInvertible) {
@@ -126,13 +145,17 @@ TEST(GltfInstances, NodesWithoutAMeshMayLoseAxes) {
     EXPECT_EQ(instances_of(gltf).size(), 1u);
 }
 
-TEST(GltfInstances, RejectsAnInstanceThatLosesAnAxis) {
+TEST(GltfInstances, LeavesOutAnInstanceThatLosesAnAxis) {
     const auto gltf = instanced([](GltfBuilder& builder) -> Json {
-        return {{"SCALE", builder.add_floats({1, 1, 1, 1, 0, 1}, "VEC3")}};
+        return {{"SCALE", builder.add_floats({1, 1, 1, 1, 0, 1, 2, 1, 1}, "VEC3")}};
     });
-    EXPECT_EQ(gltf.error(),
-              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: transform 1 is not "
-              "invertible");
+    const auto instances = instances_of(gltf);
+    ASSERT_EQ(instances.size(), 2u);
+    EXPECT_EQ(instances[1].world_from_mesh[0].x, 2.0);
+    const auto warnings = warnings_of(gltf);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(warnings[0].starts_with("meshes scaled to 0 (node 0 \"trees\" instance 1): "))
+        << warnings[0];
 }
 
 TEST(GltfInstances, RejectsATranslationThatIsNotFinite) {

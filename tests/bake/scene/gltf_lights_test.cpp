@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_lights.h>
 #include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
 
 #include <gtest/gtest.h>
 
@@ -186,6 +187,43 @@ TEST(GltfLights, PointLightNeedsNoDirection) {
     EXPECT_EQ(light_of(lamp({{"type", "point"}}, {{"scale", {0, 0, 0}}})).type, LightType::Point);
 }
 
+TEST(GltfLights, AreLeftOutWhereAScaleOf0LeavesThemNoDirection) {
+    const Json rectangle = {{"type", "point"},
+                            {"extras", {{"shape", "rectangle"}, {"width", 1}, {"height", 1}}}};
+
+    struct Case {
+        Json light;
+        Json scale;
+        const char* missing;
+    };
+
+    const Case cases[] = {{{{"type", "directional"}}, {1, 1, 0}, "direction"},
+                          {{{"type", "spot"}}, {0, 0, 0}, "direction"},
+                          {rectangle, {0, 1, 1}, "width"}};
+    for (const Case& c : cases) {
+        const auto scene = lamp(c.light, {{"scale", c.scale}}).read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        EXPECT_EQ(scene->lights.size(), 0u);
+        ASSERT_EQ(scene->warnings.size(), 1u);
+        EXPECT_TRUE(scene->warnings[0].ends_with(
+            str_cat("scene.glb: node 0 \"lamp\": is scaled to 0, so that its light has no ",
+                    c.missing, "; left out")))
+            << scene->warnings[0];
+    }
+}
+
+TEST(GltfLights, ShineOnNodesThatAreScaledTo0AcrossTheirDirection) {
+    for (const char* type : {"point", "spot", "directional"}) {
+        const double depth = type == std::string("point") ? 0.0 : 2.0;
+        const auto scene = lamp({{"type", type}}, {{"scale", {0, 0, depth}}}).read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        ASSERT_EQ(scene->lights.size(), 1u) << type;
+        EXPECT_TRUE(scene->warnings.empty());
+        if (depth == 0.0) continue;
+        EXPECT_EQ(scene->lights[0].direction, glm::vec3(0, 0, -1));
+    }
+}
+
 struct LightRejection {
     const char* label;
     Json light;
@@ -237,10 +275,6 @@ INSTANTIATE_TEST_SUITE_P(
                        "cone angles 0.6 and 0.5 are not 0 <= inner <= outer <= pi / 2"},
         LightRejection{"Outer", spot(0.1, 2), kNoExtras,
                        "cone angles 0.1 and 2 are not 0 <= inner <= outer <= pi / 2"},
-        LightRejection{"NoDirection",
-                       {{"type", "directional"}},
-                       {{"scale", {1, 1, 0}}},
-                       "direction is undefined: its node is scaled to 0"},
         LightRejection{"FarAway",
                        {{"type", "point"}},
                        {{"translation", {1e300, 0, 0}}},
@@ -279,11 +313,6 @@ INSTANTIATE_TEST_SUITE_P(
                    "extras.falloff is not for directional lights", "directional"),
         bad_extras("ShapeOfASun", {{"shape", "disc"}}, "extras.shape is not for directional lights",
                    "directional"),
-        LightRejection{
-            "NoXAxis",
-            {{"type", "point"}, {"extras", {{"shape", "rectangle"}, {"width", 1}, {"height", 1}}}},
-            {{"scale", {0, 1, 1}}},
-            "width is undefined: its node has no X axis"},
         LightRejection{
             "ModeNoString",
             {{"type", "point"}},

@@ -93,7 +93,8 @@ Result<Posed> pose(const Document& document) {
     const auto status = detail::pose_meshes(document, *nodes, NormalMaps::Read, *meshes);
     if (!status) return status.error();
     const std::vector<bool> is_probe(document.nodes.size(), false);
-    auto instances = detail::read_instances(document, *nodes, is_probe, *meshes);
+    detail::PartList parts;
+    auto instances = detail::read_instances(document, *nodes, is_probe, *meshes, parts);
     if (!instances) return instances.error();
     return Posed{std::move(*meshes), std::move(*instances)};
 }

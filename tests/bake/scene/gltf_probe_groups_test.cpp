@@ -44,6 +44,44 @@ TEST(GltfProbeGroups, PointsArePositionsInTheGroup) {
     EXPECT_EQ(group.rendering_layers, kAllRenderingLayers);
 }
 
+TEST(GltfProbeGroups, SayWhyTheyHaveNoProbes) {
+    const auto warning = [](const GltfBuilder& gltf) {
+        const Scene scene = scene_of(gltf);
+        EXPECT_EQ(scene.probe_groups.size(), 1u);
+        const std::string text = scene.probe_groups.at(0).empty_warning;
+        return text.substr(std::min(text.find("scene.glb"), text.size()));
+    };
+    EXPECT_EQ(warning(group_of_points()), "");
+    GltfBuilder faces = group_of_points();
+    faces.primitive(0)["mode"] = 1;
+    faces.json["meshes"][0]["name"] = "Grid";
+    EXPECT_EQ(warning(faces),
+              "scene.glb: node 0 \"hall\": the group has no probes: mesh 0 \"Grid\" has no points, "
+              "but triangles or lines; delete its edges and faces, or give the node child nodes");
+    faces.json["nodes"][0]["children"] = {faces.add("nodes", {{"name", "probe"}})};
+    EXPECT_EQ(warning(faces), "");
+    GltfBuilder nothing;
+    nothing.add_root({{"name", "hall"}, {"extras", kIsGroup}});
+    EXPECT_EQ(
+        warning(nothing),
+        "scene.glb: node 0 \"hall\": the group has no probes: it has neither a mesh of points "
+        "nor child nodes (Blender: export Loose Points)");
+}
+
+TEST(GltfProbeGroups, AScaleOf0PutsProbesIntoAPlane) {
+    GltfBuilder gltf = group_of_points();
+    gltf.json["nodes"][0]["scale"] = {1, 0, 1};
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.probe_groups.size(), 1u);
+    EXPECT_EQ(scene.probe_groups[0].positions, kTwoPoints);
+    EXPECT_EQ(scene.probe_groups[0].world_from_group[1], glm::dvec4(0.0));
+    ASSERT_FALSE(scene.warnings.empty());
+    EXPECT_NE(
+        scene.warnings.back().find("probe groups scaled to 0 (node 0 \"hall\"): their probes"),
+        std::string::npos)
+        << scene.warnings.back();
+}
+
 TEST(GltfProbeGroups, AllPointPrimitivesCount) {
     GltfBuilder gltf = group_of_points();
     gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive(0));

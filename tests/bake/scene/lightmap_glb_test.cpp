@@ -298,5 +298,70 @@ TEST(LightmapGlb, RefusesLightmapsOfAnotherScene) {
               std::string::npos);
 }
 
+TEST(LightmapGlb, ScenesThatAreNotReadStay) {
+    GltfBuilder gltf;
+    const size_t square = add_square(gltf);
+    gltf.add_root({{"name", "day"}, {"mesh", square}});
+    gltf.json["scenes"][1] = {{"name", "night"},
+                              {"nodes",
+                               {gltf.add("nodes", {{"name", "a"}, {"mesh", square}}),
+                                gltf.add("nodes", {{"name", "b"}, {"mesh", add_square(gltf)}})}}};
+    const TempFolder folder;
+    const GltfLightmapPlace place{0, 0, glm::vec2(0.5f), glm::vec2(0.25f)};
+    const GltfLightmaps lightmaps{{kWhole}, {{}, place}, {}, 1.0};
+    const auto path = folder.write("scene.glb", gltf.glb());
+    EXPECT_FALSE(make_lightmap_glb(path, lightmaps));  // the default scene has one instance
+    const auto bytes = make_lightmap_glb(path, lightmaps, {.scene = "night"});
+    ASSERT_TRUE(bytes) << error_text(bytes.error());
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    uint32_t length = 0;
+    std::memcpy(&length, text.data() + 12, sizeof length);
+    const Json json = Json::parse(text.substr(20, length));
+    EXPECT_EQ(json["scene"], 0);
+    EXPECT_EQ(json["scenes"], gltf.json["scenes"]);
+    EXPECT_EQ(json["nodes"][0], gltf.json["nodes"][0]);
+    EXPECT_EQ(json["nodes"][1], gltf.json["nodes"][1]);
+    EXPECT_TRUE(json["nodes"][2]["extras"].contains("lightmap_rectangle"));
+}
+
+TEST(LightmapGlb, ThePoseIsThatOfTheReading) {
+    GltfBuilder gltf;
+    const size_t square = add_square(gltf);
+    gltf.add_root({{"name", "still"}, {"mesh", square}});
+    gltf.add_root({{"name", "hidden"}, {"mesh", square}});
+    const Json sampler = {{"input", gltf.add_floats({0, 1}, "SCALAR")},
+                          {"output", gltf.add_floats({1, 1, 1, 0, 0, 0}, "VEC3")}};
+    const Json channel = {{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}};
+    gltf.add("animations", {{"samplers", {sampler}}, {"channels", {channel}}});
+    const TempFolder folder;
+    const GltfLightmapPlace place{0, 0, glm::vec2(0.5f), glm::vec2(0.25f)};
+    const auto path = folder.write("scene.glb", gltf.glb());
+    EXPECT_FALSE(make_lightmap_glb(path, {{kWhole}, {place}, {}, 1.0}));
+    EXPECT_TRUE(make_lightmap_glb(path, {{kWhole}, {place}, {}, 1.0}, {.time = 1.0}));
+    EXPECT_TRUE(make_lightmap_glb(path, {{kWhole}, {place, place}, {}, 1.0}, {.time = 0.5}));
+}
+
+TEST(LightmapGlb, MeshesScaledTo0StayAndHaveNoPlaces) {
+    GltfBuilder gltf;
+    const size_t square = add_square(gltf);
+    gltf.add_root({{"name", "hidden"}, {"mesh", square}, {"scale", {0, 1, 1}}});
+    gltf.add_root({{"name", "seen"}, {"mesh", square}});
+    const Json attributes = {{"SCALE", gltf.add_floats({0, 0, 0, 1, 1, 1}, "VEC3")}};
+    gltf.add_root({{"name", "trees"},
+                   {"mesh", square},
+                   {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+    const GltfLightmapPlace place{0, 0, glm::vec2(0.5f), glm::vec2(0.25f)};
+    const Written result = written(gltf, {{kWhole}, {place, place}, {}, 1.0});
+    EXPECT_EQ(result.scene.instances.size(), 2u);
+    const Json& nodes = result.json["nodes"];
+    EXPECT_TRUE(nodes[0].contains("mesh"));
+    EXPECT_FALSE(nodes[0].contains("extras"));
+    EXPECT_TRUE(nodes[1]["extras"].contains("lightmap_rectangle"));
+    ASSERT_EQ(nodes[2]["children"].size(), 2u);
+    EXPECT_FALSE(nodes[nodes[2]["children"][0].get<size_t>()].contains("extras"));
+    EXPECT_TRUE(
+        nodes[nodes[2]["children"][1].get<size_t>()]["extras"].contains("lightmap_rectangle"));
+}
+
 }  // namespace
 }  // namespace tetralight

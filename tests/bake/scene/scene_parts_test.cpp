@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <tetralight/bake/scene/length_unit.h>
+#include <tetralight/base/str_cat.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -251,6 +255,18 @@ TEST(SceneParts, AnotherSceneIsReadByNameOrIndex) {
               "scene.glb: has no scene \"2\"; it has 0 \"hall\", 1 \"0\"");
 }
 
+TEST(SceneParts, ControlCharactersOfNamesAreBlanks) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["nodes"][1]["name"] = "tab\tnew\nline.001";
+    gltf.json["nodes"][0]["name"] = "\x7f";
+    const Scene scene = read(gltf);
+    EXPECT_EQ(scene.light_names, std::vector<std::string>{"tab new line.001"});
+    EXPECT_EQ(scene.instances.at(0).name, " ");
+    EXPECT_EQ(warnings(scene), std::vector<std::string>{
+                                   "names (node 0 \" \" and 1 more): have blanks "
+                                   "here in place of line breaks and other control characters"});
+}
+
 TEST(SceneParts, LumensOfWattsBecomeWatts) {
     GltfBuilder gltf = plain_scene();
     gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 683.0 * 4.0;
@@ -283,6 +299,80 @@ TEST(SceneParts, LumensOfWattsBesideEmissionAreNoticed) {
     EXPECT_TRUE(warnings(read(bright)).empty());
 }
 
+/// A lamp of watts as an exporter writes it that counts a watt as 683 lumens.
+double standard_candela(double watts) {
+    return static_cast<float>(watts) * 683.0 / (4.0 * std::numbers::pi);
+}
+
+/// Lights of these types and intensities, and emission of 1.
+GltfBuilder with_lights(const std::vector<std::pair<std::string, double>>& lights) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["materials"][0]["emissiveFactor"] = {1, 0.5, 0};
+    gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 0;
+    for (const auto& [type, intensity] : lights) {
+        const size_t light = gltf.add_light({{"type", type}, {"intensity", intensity}});
+        gltf.add_root({{"name", type}, {"extensions", GltfBuilder::light_extension(light)}});
+    }
+    return gltf;
+}
+
+TEST(SceneParts, LumensOfWattsOfLampsAreKnownByTheirDigits) {
+    for (const char* type : {"point", "spot"}) {
+        for (const double watts : {1000.0, 0.1, 37.7, 1e-4, 1e7, 123456.789}) {
+            const auto found = warnings(read(with_lights({{type, standard_candela(watts)}})));
+            ASSERT_EQ(found.size(), 1u) << type << watts;
+            EXPECT_TRUE(
+                found[0].starts_with(str_cat("units of lights (\"", type, "\"): the light")))
+                << found[0];
+            EXPECT_TRUE(found[0].ends_with("--light-unit watt divides lights by 683")) << found[0];
+            const double unitless = standard_candela(watts) / 683.0;
+            EXPECT_TRUE(warnings(read(with_lights({{type, unitless}}))).empty()) << watts;
+            EXPECT_TRUE(warnings(read(with_lights({{type, watts}}))).empty()) << watts;
+        }
+    }
+    EXPECT_EQ(
+        warnings(read(with_lights({{"point", standard_candela(1000.0)}}))).at(0),
+        "units of lights (\"point\"): the light is 54351.414 candela beside emission of 1, as "
+        "exporters write it that count a watt as 683 lumens; --light-unit watt divides lights by "
+        "683");
+}
+
+TEST(SceneParts, OneLightInAnotherUnitIsEvidenceAgainstLumensOfWatts) {
+    const double lamp = standard_candela(1000.0);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"spot", lamp / 7.0}}))).size(), 0u);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"directional", 3 * 683.0}}))).size(),
+              1u);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"directional", 100000.0}}))).size(), 0u);
+}
+
+TEST(SceneParts, SunsOfLumensOfWattsAreKnownInFilesOfBlender) {
+    GltfBuilder gltf = with_lights({{"directional", static_cast<float>(0.2) * 683.0}});
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+    gltf.json["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50";
+    EXPECT_EQ(warnings(read(gltf)).size(), 1u);
+    gltf = with_lights({{"directional", static_cast<float>(0.05) * 683.0}});
+    gltf.json["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50";
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+}
+
+TEST(SceneParts, DaylightBesideEmissionIsNoMistake) {
+    EXPECT_EQ(warnings(read(with_sun(100000.0))).size(), 0u);
+    EXPECT_EQ(warnings(read(with_sun(6000.0))).size(), 1u);
+}
+
+TEST(SceneParts, LumensOfWattsMatterBesideEmissionOrASky) {
+    GltfBuilder gltf = with_lights({{"point", standard_candela(1000.0)}});
+    gltf.json["materials"][0].erase("emissiveFactor");
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+    const auto beside_sky = warnings(read(gltf, {.has_other_sky = true}));
+    ASSERT_EQ(beside_sky.size(), 1u);
+    EXPECT_NE(beside_sky[0].find("beside a sky,"), std::string::npos) << beside_sky[0];
+    gltf.json["scenes"][0]["extras"]["sky"] = {{"radiance", {0.1, 0.2, 0.05}}};
+    const auto beside_own_sky = warnings(read(gltf));
+    ASSERT_EQ(beside_own_sky.size(), 1u);
+    EXPECT_NE(beside_own_sky[0].find("beside emission of 0.2,"), std::string::npos);
+}
+
 TEST(SceneParts, CentimetresAreNoticed) {
     const auto doors = [](double scale) {
         GltfBuilder gltf;
@@ -298,6 +388,39 @@ TEST(SceneParts, CentimetresAreNoticed) {
                   "lights fade over distance in metres; if the unit is a centimetre, scale the "
                   "scene by 0.01"});
     EXPECT_TRUE(warnings(read(doors(0.01))).empty());
+}
+
+/// A room of 9 x 9 x 3 m in centimetres, and its door, with a lamp at a height.
+GltfBuilder room(double scale, double lamp_height) {
+    GltfBuilder gltf;
+    const size_t floor = gltf.add_mesh({-450, 0, -450, 450, 0, -450, 0, 0, 450});
+    const size_t door = gltf.add_mesh({-450, 0, 0, -450, 0, 90, -450, 200, 90});
+    const Json scales = {scale, scale, scale};
+    gltf.add_root({{"mesh", floor}, {"scale", scales}});
+    gltf.add_root({{"mesh", door}, {"scale", scales}});
+    const size_t light = gltf.add_light({{"type", "point"}});
+    gltf.add_root({{"name", "lamp"},
+                   {"translation", {0, lamp_height, 0}},
+                   {"extensions", GltfBuilder::light_extension(light)}});
+    return gltf;
+}
+
+TEST(SceneParts, CentimetresOfTwoObjectsAreNoticedByTheirLamps) {
+    EXPECT_EQ(
+        warnings(read(room(1.0, 200.0))),
+        std::vector<std::string>{
+            "units of length (the scene): all objects are larger than 219 m, and all lamps "
+            "farther than 20 m from them; lights fade over distance in metres; if the unit is "
+            "a centimetre, scale the scene by 0.01"});
+    EXPECT_TRUE(warnings(read(room(0.01, 2.0))).empty());
+    EXPECT_TRUE(warnings(read(room(1.0, 5.0))).empty());  // a street lamp in a landscape
+    GltfBuilder dark = room(1.0, 200.0);
+    dark.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "directional";
+    EXPECT_TRUE(warnings(read(dark)).empty());
+    EXPECT_EQ(length_unit_hint(read(room(1.0, 2.0))),
+              "the scene is 900 m wide; if its unit is a centimetre, scale it by 0.01");
+    EXPECT_EQ(length_unit_hint(read(room(0.5, 2.0))), "");
+    EXPECT_EQ(length_unit_hint(Scene{}), "");
 }
 
 }  // namespace

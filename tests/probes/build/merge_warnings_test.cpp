@@ -29,6 +29,12 @@ TEST(MergeWarnings, NameGroupsWithoutAProbe) {
               Lines{"group \"b\" has no probes"});
 }
 
+TEST(MergeWarnings, SayWhyAGroupHasNoProbes) {
+    ProbeGroup group = make_group("b", {});
+    group.empty_warning = "s.glb: b has no points";
+    EXPECT_EQ(warnings_of({group, make_group("a", {{0, 0, 0}})}), Lines{"s.glb: b has no points"});
+}
+
 TEST(MergeWarnings, SayThatThereAreNoProbes) {
     const std::string none = "there are no probes: the volume answers with its ambient light alone";
     EXPECT_EQ(warnings_of({}), Lines{none});
