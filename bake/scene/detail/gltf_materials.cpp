@@ -50,8 +50,7 @@ Result<AlphaMode> alpha_mode_from(const std::string& mode) {
 
 /// The readers of surfaces, which share decoded and converted textures.
 struct SurfaceReaders {
-    SurfaceReaders(const GltfDocument& document, GltfImages& images)
-        : textures(document, images) {}
+    SurfaceReaders(const GltfDocument& document, GltfImages& images) : textures(document, images) {}
 
     GltfTextureReader textures;
     SpecularGlossinessReader specular_glossiness{textures};
