@@ -28,8 +28,8 @@ struct PictureLine {
     glm::dvec3 b{0.0};
 };
 
-/// Depth of a point of a line; `t`: its place in the picture, from 0 at `a` to 1 at `b`. What is
-/// linear in the picture is depth divided by the size of a pixel.
+/// Depth of a point of a line; `t`: its place in the picture, from 0 at `a` to 1 at `b`. Depth and
+/// 1, both divided by the size of a pixel, are linear in the picture.
 double depth_at(const Projection& projection, const PictureLine& line, double t) {
     const double toward_a = (1.0 - t) * projection.pixel_size(line.b.z);
     const double toward_b = t * projection.pixel_size(line.a.z);
