@@ -23,13 +23,13 @@ std::array<uint8_t, 4> rgbd_pixel(glm::vec3 light) {
 
 /// Code / 255 to the power, for all 8-bit codes.
 const std::array<float, 256>& powers_of_codes() {
-    static const std::array<float, 256> kPowers = [] {
+    static const std::array<float, 256> table = [] {
         std::array<float, 256> powers{};
         for (size_t code = 0; code < powers.size(); ++code)
             powers[code] = std::pow(static_cast<float>(code) / 255.0f, kRgbdExponent);
         return powers;
     }();
-    return kPowers;
+    return table;
 }
 
 }  // namespace

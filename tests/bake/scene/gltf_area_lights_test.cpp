@@ -188,6 +188,18 @@ TEST(GltfAreaLights, UnknownTypesAreLeftOutWithAWarning) {
         "scene.glb: area light 0 \"globe\": type \"sphere\" is not known; left out"));
 }
 
+TEST(GltfAreaLights, ThoseScaledToNothingAreLeftOutWithAWarning) {
+    for (const Json scale : {Json{0, 0, 0}, Json{1, 1, 0}}) {
+        const auto scene = panel(disk(1.0), {{"scale", scale}}).read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        EXPECT_TRUE(scene->lights.empty());
+        ASSERT_EQ(scene->warnings.size(), 1u);
+        EXPECT_TRUE(scene->warnings[0].ends_with(
+            "scene.glb: node 0 \"lamp\": is scaled to 0, so that its light has no direction; "
+            "left out"));
+    }
+}
+
 struct Rejection {
     const char* label;
     Json light;
@@ -234,16 +246,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "extensions.EXT_lights_area.lights[0].size"},
         Rejection{"Aspect", rectangle(1.0, -2.0), kPlain, "rect.aspect -2 makes a light of -2 m",
                   "extensions.EXT_lights_area.lights[0].rect.aspect"},
-        Rejection{"Scale",
-                  disk(1.0),
-                  {{"scale", {0, 0, 0}}},
-                  "size 1 makes a light of 0 m",
-                  "extensions.EXT_lights_area.lights[0].size"},
-        Rejection{"Flat",
-                  disk(1.0),
-                  {{"scale", {1, 1, 0}}},
-                  "direction is undefined: its node is scaled to 0",
-                  "nodes[0]"},
         Rejection{"Mode",
                   disk(1.0),
                   {{"extras", {{"mode", "off"}}}},
