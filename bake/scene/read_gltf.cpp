@@ -12,6 +12,7 @@
 #include <tetralight/bake/scene/detail/gltf_materials.h>
 #include <tetralight/bake/scene/detail/gltf_memory.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
+#include <tetralight/bake/scene/detail/gltf_motion_parts.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
 #include <tetralight/bake/scene/detail/gltf_portals.h>
 #include <tetralight/bake/scene/detail/gltf_pose.h>
@@ -114,10 +115,14 @@ Status add_all(const detail::GltfDocument& document, const SceneReading& reading
     return add_nodes(document, meshes, scene);
 }
 
-/// The table of what was read, and warnings of what is left out and changes the light.
-void add_parts(const detail::GltfDocument& document, Scene& scene) {
+/// The table of what was read, and warnings of what is left out and changes the light. `animation`
+/// is the one that the nodes stand in.
+void add_parts(const detail::GltfDocument& document, std::optional<uint32_t> animation,
+               Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
+    if (const auto nodes = detail::flatten_nodes(document))
+        detail::add_motion_parts(document, *nodes, animation, parts);
     detail::add_light_unit(scene, parts);
     detail::add_length_unit(scene, parts);
     parts.append(document.parts);
@@ -138,9 +143,11 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     auto document = detail::read_gltf_document(path, reading.scene);
     if (!document) return document.error();
     if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
+    std::optional<uint32_t> chosen_animation;
     if (reading.time) {
         const auto animation = detail::find_animation(*document, reading.animation);
         if (!animation) return animation.error().in(path);
+        chosen_animation = *animation;
         const auto moved = detail::pose_nodes(*document, *animation, *reading.time);
         if (!moved) return moved.error().in(path);
     }
@@ -151,7 +158,7 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     if (!fits) return fits.error().in(path);
     const auto status = add_all(*document, reading, scene);
     if (!status) return status.error().in(path);
-    add_parts(*document, scene);
+    add_parts(*document, chosen_animation, scene);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;
 }

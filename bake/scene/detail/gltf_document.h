@@ -296,6 +296,8 @@ struct GltfDocument {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::vector<GltfNode> nodes;
+    /// KHR_mesh_quantization: texture coordinates may be integers that are not normalized.
+    bool is_quantized = false;
     /// Roots of the scene that is read. Empty if there is no scene.
     std::optional<std::vector<uint32_t>> scene_roots;
     /// Index of that scene.
