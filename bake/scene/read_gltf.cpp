@@ -13,6 +13,7 @@
 #include <tetralight/bake/scene/detail/gltf_materials.h>
 #include <tetralight/bake/scene/detail/gltf_memory.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
+#include <tetralight/bake/scene/detail/gltf_motion_parts.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
 #include <tetralight/bake/scene/detail/gltf_portals.h>
 #include <tetralight/bake/scene/detail/gltf_pose.h>
@@ -152,6 +153,8 @@ void add_parts(const detail::GltfDocument& document, const SceneReading& reading
                const detail::PartList& not_read, Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
+    if (const auto nodes = detail::flatten_nodes(document))
+        detail::add_motion_parts(document, *nodes, parts);
     if (reading.light_unit == LightUnit::Lux) {
         detail::add_light_unit(document, scene, reading.has_other_sky, parts);
     }

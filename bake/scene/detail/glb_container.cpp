@@ -65,8 +65,11 @@ Result<GlbChunks> glb_chunks(Bytes bytes) {
         return Error{ErrorCode::Corrupt, "is cut off in the GLB header"};
     const uint32_t version = read_u32(bytes, 4);
     if (version != kGlbVersion) {
-        return Error{ErrorCode::Unsupported, "version", str_cat(version),
-                     str_cat("GLB version ", version, " is not supported")};
+        return Error{
+            ErrorCode::Unsupported, "version", str_cat(version),
+            str_cat(
+                "GLB version ", version, " is not supported (2 is)",
+                version == 1 ? "; `gltf-pipeline -i IN.glb -o OUT.glb` makes it glTF 2.0" : "")};
     }
     const size_t length = read_u32(bytes, 8);
     if (length != bytes.size()) {

@@ -261,6 +261,7 @@ Result<GltfDocument> read_posed_document(const std::string& path, const SceneRea
     if (!animation) return animation.error().in(path);
     const auto moved = pose_nodes(*document, *animation, *reading.time);
     if (!moved) return moved.error().in(path);
+    document->animation = *animation;
     return document;
 }
 

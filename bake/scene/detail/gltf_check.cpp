@@ -45,14 +45,31 @@ uint64_t size_or(const json& element, const char* key, uint64_t otherwise) {
     return value == element.end() ? otherwise : value->get<uint64_t>();
 }
 
+/// A version that a file needs at least.
+Status check_least_version(const json& document) {
+    const json* version = find_json(document, "asset/minVersion");
+    if (version == nullptr) return Ok{};
+    if (!version->is_string())
+        return in_member(wrong_type(*version, "asset.minVersion", "a string"), "");
+    const auto& text = version->get_ref<const std::string&>();
+    if (text == "2.0" || text.starts_with("1.") || text.starts_with("0.")) return Ok{};
+    return Error{ErrorCode::Unsupported, "asset.minVersion", shown_json(*version),
+                 str_cat("asset.minVersion ", shown_json(*version),
+                         " is not supported (2.0 is); export the file as glTF 2.0")};
+}
+
 Status check_version(const json& document) {
     const json* version = find_json(document, "asset/version");
     if (version == nullptr || !version->is_string()) {
         return Error{ErrorCode::Corrupt, "asset.version", "", "asset.version is missing"};
     }
-    if (version->get_ref<const std::string&>().starts_with("2.")) return Ok{};
-    return Error{ErrorCode::Unsupported, "asset.version", shown_json(*version),
-                 str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)")};
+    const auto& text = version->get_ref<const std::string&>();
+    if (text.starts_with("2.")) return check_least_version(document);
+    const char* remedy =
+        text.starts_with("1.") ? "; `gltf-pipeline -i IN.gltf -o OUT.glb` makes it glTF 2.0" : "";
+    return Error{
+        ErrorCode::Unsupported, "asset.version", shown_json(*version),
+        str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)", remedy)};
 }
 
 Status check_required_extensions(const json& document) {
@@ -168,6 +185,25 @@ Status check_buffer_views(const json& document) {
     return Ok{};
 }
 
+/// A node has a matrix or else a translation, rotation and scale.
+Status check_node_transforms(const json& document) {
+    const json* nodes = find_json(document, "nodes");
+    if (nodes == nullptr) return Ok{};
+    for (size_t i = 0; i < nodes->size(); ++i) {
+        const json& node = (*nodes)[i];
+        if (!node.contains("matrix")) continue;
+        for (const char* part : {"translation", "rotation", "scale"}) {
+            if (!node.contains(part)) continue;
+            const json* name = find_json(node, "name");
+            return in_element({ErrorCode::Corrupt, ".matrix", "",
+                               str_cat("has a matrix beside a ", part,
+                                       "; glTF allows one of them, so remove the other")},
+                              "nodes", i, name == nullptr ? "" : name->get<std::string>());
+        }
+    }
+    return Ok{};
+}
+
 /// The samplers of the channels of animations.
 Status check_animations(const json& document) {
     const json* animations = find_json(document, "animations");
@@ -195,6 +231,7 @@ Status check_document(const json& document, GltfContainer container) {
     if (const auto status = check_default_scene(document); !status) return status;
     if (const auto status = check_buffers(document, container); !status) return status;
     if (const auto status = check_image_uris(document); !status) return status;
+    if (const auto status = check_node_transforms(document); !status) return status;
     if (const auto status = check_animations(document); !status) return status;
     return check_buffer_views(document);
 }

@@ -23,6 +23,7 @@
 #include <tetralight/bake/scene/detail/gltf_names.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
+#include <tetralight/bake/scene/detail/gltf_unknown_members.h>
 #include <tetralight/bake/scene/detail/gltf_unread.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/bake/scene/detail/part_list.h>
@@ -108,6 +109,7 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     PartList parts;
     add_unread_parts(*source, document, parts);
     add_unknown_extras(*source, parts);
+    add_unknown_members(*source, parts);
     document.parts = parts.parts();
     if (auto status = decode_image_uris(document); !status) return status.error();
     return document;

@@ -321,6 +321,8 @@ struct GltfDocument {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::vector<GltfNode> nodes;
+    /// KHR_mesh_quantization: texture coordinates may be integers that are not normalized.
+    bool is_quantized = false;
     /// Roots of the scene that is read. Empty if there is no scene.
     std::optional<std::vector<uint32_t>> scene_roots;
     /// Index of that scene.
@@ -333,6 +335,8 @@ struct GltfDocument {
     std::vector<ScenePart> parts;
     /// What reading takes, without the images.
     SceneMemory memory;
+    /// The animation that the nodes stand in; empty: none.
+    std::optional<uint32_t> animation;
     /// Without the path.
     std::vector<std::string> warnings;
 };

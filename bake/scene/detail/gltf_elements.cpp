@@ -287,6 +287,11 @@ GltfDocument document_from(const json& source) {
     document.skins = read_all(source, "skins", skin_from);
     document.animations = read_all(source, "animations", animation_from);
     document.nodes = read_all(source, "nodes", node_from);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        for (const json& name : array_at(source, list)) {
+            if (name == "KHR_mesh_quantization") document.is_quantized = true;
+        }
+    }
     return document;
 }
 

@@ -81,10 +81,33 @@ Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
         str_cat(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
 }
 
+/// Integers that stand for 0 to 1 have to say so.
+Status check_normalized(const GltfAccessor& accessor, const char* attribute, const char* remedy) {
+    constexpr uint32_t kFloatComponents = 5126;
+    if (accessor.component_type == kFloatComponents || accessor.is_normalized) return Ok{};
+    return Error{ErrorCode::Corrupt, str_cat(".attributes.", attribute), "",
+                 str_cat(attribute, ": has integers that are not \"normalized\"; ", remedy)};
+}
+
+Status check_color_type(const GltfAccessor& accessor) {
+    return check_normalized(accessor, "COLOR_0",
+                            "set \"normalized\": true, so that the largest integer is 1");
+}
+
+Status check_uv_type(const GltfDocument& document, const GltfAccessor& accessor,
+                     const char* attribute) {
+    if (document.is_quantized) return Ok{};
+    return check_normalized(accessor, attribute,
+                            "set \"normalized\": true, or list KHR_mesh_quantization in "
+                            "extensionsUsed if they count texels");
+}
+
 Status read_vertex_colors(const GltfDocument& document, const GltfAttributes& attributes,
                           Mesh& mesh) {
     const auto color = attributes.find("COLOR_0");
     if (color == attributes.end()) return Ok{};
+    const auto type = check_color_type(document.accessors[color->second]);
+    if (!type) return type;
     auto colors = read_colors(document, color->second);
     if (!colors) return colors.error().in("COLOR_0");
     const auto status = check_count(colors->size(), "COLOR_0", mesh);
@@ -119,6 +142,8 @@ Status read_optional_attributes(const GltfDocument& document, const GltfAttribut
     for (size_t set = 0; set < std::size(kUvNames); ++set) {
         const auto uv = attributes.find(kUvNames[set]);
         if (uv == attributes.end()) continue;
+        const auto type = check_uv_type(document, document.accessors[uv->second], kUvNames[set]);
+        if (!type) return type;
         auto uvs = read_vec2s(document, uv->second);
         if (!uvs) return uvs.error().in(kUvNames[set]);
         const auto status = check_count(uvs->size(), kUvNames[set], mesh);

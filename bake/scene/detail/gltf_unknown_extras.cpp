@@ -2,7 +2,6 @@
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -13,8 +12,8 @@
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/bake/scene/detail/meant_name.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/base/suggest.h>
 
 namespace tetralight::detail {
 namespace {
@@ -71,26 +70,6 @@ bool contains(std::span<const std::string> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-/// "contributeGI", "contribute-gi" and "Contribute GI" as "contributegi".
-std::string plain(std::string_view word) {
-    std::string letters;
-    for (const char c : word) {
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0) continue;
-        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return letters;
-}
-
-/// The name that a word probably stands for; empty if there is none.
-std::string meant(std::string_view word, std::span<const std::string> names) {
-    constexpr size_t kShortest = 5;  // shorter words are near to too many others
-    const std::string letters = plain(word);
-    for (const std::string& name : names) {
-        if (plain(name) == letters) return name;
-    }
-    return letters.size() < kShortest ? "" : closest(word, names);
-}
-
 /// The kind of elements that have extras of this name, if they are others than `section`.
 const KnownExtras* other_place(std::string_view word, std::string_view section) {
     if (std::ranges::find(kCommonWords, word) != std::end(kCommonWords)) return nullptr;
@@ -133,7 +112,7 @@ void add_extras(const GltfSection& section, const json& extras, const std::strin
                        str_cat("move it to the extras of ", other->place),
                        true},
                       element);
-        } else if (const std::string near = meant(name, names); !near.empty()) {
+        } else if (const std::string near = meant_name(name, names); !near.empty()) {
             add_misspelt(name, near, element, parts);
         } else {
             parts.add({PartUse::Ignored,
@@ -153,7 +132,7 @@ void add_members(const KnownExtras& known, const json& object, const std::string
                  PartList& parts) {
     for (const auto& [name, value] : object.items()) {
         if (contains(known.names, name)) continue;
-        const std::string near = meant(name, known.names);
+        const std::string near = meant_name(name, known.names);
         parts.add({PartUse::Ignored,
                    str_cat(known.place, " \"", name, "\""),
                    0,
@@ -183,6 +162,14 @@ void add_unknown_extras(const json& source, PartList& parts) {
                 }
             }
         });
+}
+
+bool is_extras_name(std::string_view section, std::string_view name) {
+    if (std::ranges::find(kCommonWords, name) != std::end(kCommonWords)) return false;
+    return std::ranges::any_of(known_extras(), [&](const KnownExtras& known) {
+        const bool is_whole = std::string_view(known.path) == "extras";
+        return is_whole && section == known.section && contains(known.names, name);
+    });
 }
 
 }  // namespace tetralight::detail

@@ -10,6 +10,8 @@
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/bake/scene/detail/gltf_skin.h>
+#include <tetralight/bake/scene/detail/gltf_texture_coordinates.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -42,16 +44,22 @@ std::string_view reason_for_no_sky(const GltfDocument& document) {
     return "is the light of a place in the scene, and not its sky: its extras.sky is false";
 }
 
-/// The extensions of a section's element.
-void add_extensions_of(const std::set<std::string>& names, const std::string& place,
-                       std::string_view reason, PartList& parts) {
-    for (const std::string& name : names) {
-        if (name == "EXT_lights_image_based" && !reason.empty()) {
-            parts.add({PartUse::Ignored, name, 0, {}, std::string(reason), "", false}, place);
-        } else {
-            add_extension(name, place, parts);
-        }
-    }
+/// Adds an extension that has another image for a texture, which has no image that is read.
+void add_only_image(const std::string& name, const std::string& element, PartList& parts) {
+    const GltfExtension* known = find_gltf_extension(name);
+    ScenePart part;
+    part.name = name;
+    part.use = PartUse::Ignored;
+    part.note = "there is no PNG, JPEG or WebP image beside it; the texture is left out";
+    part.remedy = known->remedy;
+    parts.add(part, element);
+}
+
+/// True if an extension has the only image of a texture, in a format that is not read.
+bool is_only_image(const std::string& name, const GltfSection& section, const json& element) {
+    if (std::string_view(section.name) != "textures" || element.contains("source")) return false;
+    if (find_json(element, "extensions/EXT_texture_webp/source") != nullptr) return false;
+    return name == "EXT_texture_avif" || name == "KHR_texture_basisu" || name == "MSFT_texture_dds";
 }
 
 /// The names of all extensions of a value and of what is in it, but not in its extras.
@@ -71,11 +79,20 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
     const json* scene = scenes.empty() ? nullptr : &scenes[document.scene];
     std::set<std::string> seen;
     for_each_element(
-        source, [&](const GltfSection&, const json& element, const std::string& place) {
+        source, [&](const GltfSection& section, const json& element, const std::string& place) {
             std::set<std::string> names;
             find_extensions(element, names);
-            const bool is_scene = &element == scene;
-            add_extensions_of(names, place, is_scene ? reason_for_no_sky(document) : "", parts);
+            const auto no_sky = &element == scene ? reason_for_no_sky(document) : "";
+            for (const std::string& name : names) {
+                if (name == "EXT_lights_image_based" && !no_sky.empty()) {
+                    parts.add({PartUse::Ignored, name, 0, {}, std::string(no_sky), "", false},
+                              place);
+                } else if (is_only_image(name, section, element)) {
+                    add_only_image(name, place, parts);
+                } else {
+                    add_extension(name, place, parts);
+                }
+            }
             seen.insert(names.begin(), names.end());
         });
     std::set<std::string> of_file;
@@ -127,6 +144,36 @@ void add_attributes(const GltfPrimitive& primitive, const std::string& place, Pa
                        begins_with_any(name, {"COLOR_0", "TEXCOORD_0"})},
                       place);
         }
+    }
+}
+
+/// What EXT_mesh_gpu_instancing has that is not read.
+void add_instancing(const GltfDocument& document, PartList& parts) {
+    for (size_t i = 0; i < document.nodes.size(); ++i) {
+        const GltfNode& node = document.nodes[i];
+        if (!node.instancing) continue;
+        const std::string place = gltf_place("node", i, node.name);
+        for (const auto& [name, accessor] : *node.instancing) {
+            if (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE") continue;
+            ScenePart part{
+                PartUse::Ignored, "attribute " + name + " of instances", 0, {}, "", "", false};
+            part.note = name.starts_with('_') ? "belongs to the program that wrote the file"
+                                              : "is no attribute of EXT_mesh_gpu_instancing";
+            if (name == "_COLOR_0") {
+                part.note = "instances have the colours of their mesh; some viewers change them";
+                part.changes_light = true;
+            }
+            parts.add(part, place);
+        }
+        if (!is_skinned(document, node)) continue;
+        parts.add({PartUse::Ignored,
+                   "instances of a node with a skin",
+                   0,
+                   {},
+                   "the mesh stands once, where its skin has it",
+                   "",
+                   true},
+                  place);
     }
 }
 
@@ -247,6 +294,8 @@ void add_other_scenes(const json& source, const GltfDocument& document, PartList
 void add_unread_parts(const json& source, const GltfDocument& document, PartList& parts) {
     add_extensions(source, document, parts);
     add_primitives(document, parts);
+    add_instancing(document, parts);
+    add_missing_coordinates(document, parts);
     add_materials(source, parts);
     add_cameras(document, source, parts);
     add_other_scenes(source, document, parts);

@@ -67,7 +67,11 @@ void add_surfaces(const Scene& scene, PartList& parts) {
         return str_cat("\"", texture.name, "\" ", texture.image.width, " x ", texture.image.height);
     };
     add_named("textures", scene.textures, size_of, parts);
-    add_named("normal maps", scene.normal_maps, size_of, parts);
+    ScenePart normal_maps = read_part("normal maps");
+    normal_maps.use = PartUse::Approximated;
+    normal_maps.note =
+        "bakes take the normals of the surfaces; pictures and `lightmap --normal-maps` take these";
+    for (const Texture& map : scene.normal_maps) parts.add(normal_maps, size_of(map));
 }
 
 void add_lights(const Scene& scene, PartList& parts) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -129,6 +130,45 @@ TEST(GltfInstances, LeavesOutATransformThatLosesAnAxis) {
                   "meshes scaled to 0 (node 0 \"leaf\" and 1 more): are left out: their transforms "
                   "are not invertible; if they are to be seen, give them a scale above 0 on every "
                   "axis"});
+}
+
+/// The part of the first row with this name; an empty one if there is none.
+ScenePart part_of(const GltfBuilder& gltf, const std::string& name) {
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << error_text(scene.error());
+    if (!scene) return {};
+    const auto found = std::ranges::find(scene->parts, name, &ScenePart::name);
+    return found == scene->parts.end() ? ScenePart() : *found;
+}
+
+TEST(GltfInstances, TellsOfAttributesThatAreNotRead) {
+    const GltfBuilder gltf = instanced([](GltfBuilder& builder) -> Json {
+        return {{"TRANSLATION", builder.add_floats({1, 2, 3}, "VEC3")},
+                {"_ID", builder.add_floats({7}, "SCALAR")},
+                {"_COLOR_0", builder.add_floats({1, 0, 0}, "VEC3")}};
+    });
+    const ScenePart id = part_of(gltf, "attribute _ID of instances");
+    EXPECT_EQ(id.use, PartUse::Ignored);
+    EXPECT_EQ(id.elements, std::vector<std::string>{"node 0 \"trees\""});
+    EXPECT_FALSE(id.changes_light);
+    EXPECT_TRUE(part_of(gltf, "attribute _COLOR_0 of instances").changes_light);
+    EXPECT_EQ(part_of(gltf, "attribute TRANSLATION of instances").count, 0u);
+}
+
+TEST(GltfInstances, ASkinnedMeshStandsOnceAndThatIsTold) {
+    GltfBuilder gltf = instanced([](GltfBuilder& builder) -> Json {
+        return {{"TRANSLATION", builder.add_floats({1, 2, 3, 4, 5, 6}, "VEC3")}};
+    });
+    EXPECT_EQ(part_of(gltf, "instances of a node with a skin").count, 0u);
+    Json& attributes = gltf.primitive(0)["attributes"];
+    attributes["JOINTS_0"] = gltf.add_accessor(std::vector<uint8_t>(12, 0), "VEC4", 5121);
+    attributes["WEIGHTS_0"] = gltf.add_floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    gltf.add("skins", {{"joints", {0}}});
+    gltf.json["nodes"][0]["skin"] = 0;
+    EXPECT_EQ(instances_of(gltf).size(), 1u);
+    const ScenePart part = part_of(gltf, "instances of a node with a skin");
+    EXPECT_EQ(part.elements, std::vector<std::string>{"node 0 \"trees\""});
+    EXPECT_TRUE(part.changes_light);
 }
 
 TEST(GltfInstances, SmallAndUnevenScalesAreInvertible) {

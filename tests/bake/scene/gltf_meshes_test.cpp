@@ -146,6 +146,38 @@ TEST(GltfMeshes, NegativeVertexColorsAreNamed) {
         << error_text(scene.error());
 }
 
+TEST(GltfMeshes, IntegerColorsHaveToBeNormalized) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const size_t colors = gltf.add_accessor(
+        std::vector<uint8_t>{255, 0, 0, 255, 0, 51, 0, 255, 0, 0, 0, 255}, "VEC4", 5121);
+    gltf.primitive(mesh)["attributes"]["COLOR_0"] = colors;
+    gltf.add_root({{"mesh", mesh}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: mesh 0: primitive 0: COLOR_0: has integers that are not \"normalized\"; "
+              "set \"normalized\": true, so that the largest integer is 1");
+    gltf.json["accessors"][colors]["normalized"] = true;
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_FLOAT_EQ(scene->meshes[0].colors.at(1).y, 51.0f / 255.0f);
+}
+
+TEST(GltfMeshes, IntegerTextureCoordinatesMayCountTexelsByAnExtension) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.primitive(mesh)["attributes"]["TEXCOORD_1"] =
+        gltf.add_accessor(std::vector<uint16_t>{0, 0, 7, 0, 0, 7}, "VEC2", 5123);
+    gltf.add_root({{"mesh", mesh}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: mesh 0: primitive 0: TEXCOORD_1: has integers that are not "
+              "\"normalized\"; set \"normalized\": true, or list KHR_mesh_quantization in "
+              "extensionsUsed if they count texels");
+    gltf.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_EQ(scene->meshes[0].uvs[1].at(1), glm::vec2(7, 0));
+}
+
 TEST(GltfMeshes, EachPrimitiveBecomesAMesh) {
     GltfBuilder gltf;
     const auto mesh = gltf.add_triangle();

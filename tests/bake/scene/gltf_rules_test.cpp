@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
@@ -154,18 +157,75 @@ TEST(GltfRules, RejectsABufferViewOutsideOfItsBuffer) {
 }
 
 TEST(GltfRules, RejectsUnknownRequiredExtensions) {
-    for (const char* extension : {"KHR_materials_sheen", "EXT_texture_avif", "X"}) {
+    GltfBuilder gltf = linked_scene();
+    gltf.json["extensionsRequired"] = {"KHR_texture_transform", "X"};
+    EXPECT_EQ(gltf.error(), "scene.glb: required extension \"X\" is not supported");
+}
+
+TEST(GltfRules, SaysWhatToDoAboutRequiredExtensions) {
+    const std::map<std::string, std::string> remedies{
+        {"EXT_texture_avif", "`gltf-transform png --formats avif` makes PNG images of AVIF images"},
+        {"KHR_techniques_webgl", "`gltf-pipeline -i IN.glb -o OUT.glb` turns them into materials"},
+        {"MSFT_texture_dds", "export the images as PNG or JPEG files"}};
+    for (const auto& [extension, remedy] : remedies) {
         GltfBuilder gltf = linked_scene();
-        gltf.json["extensionsRequired"] = {"KHR_texture_transform", extension};
-        EXPECT_EQ(gltf.error(), std::string("scene.glb: required extension \"") + extension +
-                                    "\" is not supported");
+        gltf.json["extensionsRequired"] = {extension};
+        EXPECT_EQ(gltf.error(), "scene.glb: required extension \"" + extension +
+                                    "\" is not supported; " + remedy);
+    }
+}
+
+TEST(GltfRules, ExtensionsThatLeaveDiffuseLightAloneMayBeRequired) {
+    for (const char* name :
+         {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion",
+          "KHR_materials_ior", "KHR_materials_iridescence", "KHR_materials_sheen",
+          "KHR_materials_specular", "KHR_materials_variants"}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json["extensionsRequired"] = {name};
+        gltf.json["materials"][0]["extensions"][name] = Json::object();
+        const auto scene = gltf.read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        const auto row = std::ranges::find(scene->parts, name, &ScenePart::name);
+        ASSERT_NE(row, scene->parts.end()) << name;
+        EXPECT_NE(row->use, PartUse::Read) << name;
     }
 }
 
 TEST(GltfRules, RejectsOtherVersions) {
     GltfBuilder gltf = linked_scene();
     gltf.json["asset"]["version"] = "1.0";
-    EXPECT_EQ(gltf.error(), "scene.glb: asset.version \"1.0\" is not supported (2.x is)");
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: asset.version \"1.0\" is not supported (2.x is); `gltf-pipeline -i "
+              "IN.gltf -o OUT.glb` makes it glTF 2.0");
+    gltf.json["asset"]["version"] = "3.0";
+    EXPECT_EQ(gltf.error(), "scene.glb: asset.version \"3.0\" is not supported (2.x is)");
+}
+
+TEST(GltfRules, ALaterMinorVersionIsReadUnlessTheFileNeedsIt) {
+    GltfBuilder gltf = linked_scene();
+    gltf.json["asset"]["version"] = "2.1";
+    EXPECT_EQ(gltf.error(), "(no error)");
+    gltf.json["asset"]["minVersion"] = "2.0";
+    EXPECT_EQ(gltf.error(), "(no error)");
+    gltf.json["asset"]["minVersion"] = "2.1";
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: asset.minVersion \"2.1\" is not supported (2.0 is); export the file as "
+              "glTF 2.0");
+    gltf.json["asset"]["minVersion"] = 2;
+    EXPECT_EQ(gltf.error(), "scene.glb: asset.minVersion is not a string (2)");
+}
+
+TEST(GltfRules, RejectsAMatrixBesideItsParts) {
+    for (const char* part : {"translation", "rotation", "scale"}) {
+        GltfBuilder gltf = linked_scene();
+        Json& node = gltf.json["nodes"][1];
+        node["name"] = "wall";
+        node["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        EXPECT_EQ(gltf.error(), "(no error)");
+        node[part] = std::string(part) == "rotation" ? Json{0, 0, 0, 1} : Json{1, 1, 1};
+        EXPECT_EQ(gltf.error(), std::string("scene.glb: node 1 \"wall\": has a matrix beside a ") +
+                                    part + "; glTF allows one of them, so remove the other");
+    }
 }
 
 TEST(GltfRules, RejectsASecondBufferWithoutUri) {

@@ -147,6 +147,30 @@ INSTANTIATE_TEST_SUITE_P(
                {{"ACME_glow", {{"power", 1}}}},
                "ACME_glow (material 0 \"paint\"): is not known here; what it changes of surfaces "
                "and lights is left out"},
+        Unread{"MisspeltMember",
+               "/materials/0/pbrMetallicRoughness",
+               {{"baseColourFactor", {0, 0, 1, 1}}},
+               "member \"baseColourFactor\" of pbrMetallicRoughness (material 0 \"paint\"): is no "
+               "member that glTF 2.0 defines; did you mean \"baseColorFactor\"?"},
+        Unread{"MemberOfAPartOfTheElement",
+               "/materials/0/baseColorFactor",
+               {0, 0, 1, 1},
+               "member \"baseColorFactor\" of materials (material 0 \"paint\"): is a member of "
+               "pbrMetallicRoughness; move it to pbrMetallicRoughness"},
+        Unread{"MemberOfAnotherElement", "/meshes/0/material", 0,
+               "member \"material\" of meshes (mesh 0): is a member of primitives; move it to "
+               "primitives"},
+        Unread{"MisspeltMemberOfALight", "/extensions/KHR_lights_punctual/lights/0/intensty", 5,
+               "member \"intensty\" of lights (light 0 \"bulb\"): is no member that glTF 2.0 "
+               "defines; did you mean \"intensity\"?"},
+        Unread{"ExtensionBesideTheExtensions",
+               "/materials/0/KHR_materials_emissive_strength",
+               {{"emissiveStrength", 9}},
+               "member \"KHR_materials_emissive_strength\" of materials (material 0 \"paint\"): is "
+               "an extension outside of \"extensions\"; move it into \"extensions\""},
+        Unread{"ExtrasBesideTheExtras", "/nodes/0/contribute_gi", false,
+               "member \"contribute_gi\" of nodes (node 0 \"wall\"): is read of \"extras\" only; "
+               "move it into \"extras\""},
         Unread{"UnknownExtensionOfTheFile",
                "/extensionsUsed",
                {"ACME_fog"},
@@ -199,9 +223,29 @@ INSTANTIATE_TEST_SUITE_P(
                "lines"},
         Unread{"OtherColors", "/meshes/0/primitives/0/attributes/COLOR_1", 0, "attribute COLOR_1"},
         Unread{"OwnAttribute", "/meshes/0/primitives/0/attributes/_ID", 0, "attribute _ID"},
+        Unread{"OtherMember", "/nodes/0/visibility_of_cycles", true, "other members"},
+        Unread{"OtherMemberOfAPrimitive", "/meshes/0/primitives/0/name", "a", "other members"},
+        Unread{"MisspeltMemberWithoutLight", "/asset/generatr", "pen",
+               "member \"generatr\" of asset"},
+        Unread{"DdsAlone",
+               "/textures/0",
+               {{"extensions", {{"MSFT_texture_dds", {{"source", 0}}}}}},
+               "MSFT_texture_dds"},
         Unread{"OtherScene", "/scenes/1", {{"name", "attic"}}, "other scenes"},
         Unread{"OtherNode", "/nodes/2", {{"name", "lost"}}, "nodes outside of the scene"}),
     [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(SceneParts, SaysWhichImageOfATextureIsRead) {
+    for (const char* name : {"EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+        GltfBuilder gltf = plain_scene();
+        gltf.add("images", {{"uri", "a.png"}});
+        gltf.add("textures", {{"extensions", {{name, {{"source", 0}}}}}});
+        EXPECT_EQ(part(read(gltf), name).note,
+                  "there is no PNG, JPEG or WebP image beside it; the texture is left out");
+        gltf.json["textures"][0]["source"] = 0;
+        EXPECT_EQ(part(read(gltf), name).note, "the texture's PNG, JPEG or WebP image is read");
+    }
+}
 
 TEST(SceneParts, AWordOnSeveralElementsIsOneWarning) {
     GltfBuilder gltf = plain_scene();
