@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_motion_parts.h>
 
-#include <optional>
-#include <cstdint>
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 

@@ -78,23 +78,22 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
     const json& scenes = array_at(source, "scenes");
     const json* scene = scenes.empty() ? nullptr : &scenes[document.scene];
     std::set<std::string> seen;
-    for_each_element(
-        source, [&](const GltfSection& section, const json& element, const std::string& place) {
-            std::set<std::string> names;
-            find_extensions(element, names);
-            const auto no_sky = &element == scene ? reason_for_no_sky(document) : "";
-            for (const std::string& name : names) {
-                if (name == "EXT_lights_image_based" && !no_sky.empty()) {
-                    parts.add({PartUse::Ignored, name, 0, {}, std::string(no_sky), "", false},
-                              place);
-                } else if (is_only_image(name, section, element)) {
-                    add_only_image(name, place, parts);
-                } else {
-                    add_extension(name, place, parts);
-                }
+    for_each_element(source, [&](const GltfSection& section, const json& element,
+                                 const std::string& place) {
+        std::set<std::string> names;
+        find_extensions(element, names);
+        const auto no_sky = &element == scene ? reason_for_no_sky(document) : "";
+        for (const std::string& name : names) {
+            if (name == "EXT_lights_image_based" && !no_sky.empty()) {
+                parts.add({PartUse::Ignored, name, 0, {}, std::string(no_sky), "", false}, place);
+            } else if (is_only_image(name, section, element)) {
+                add_only_image(name, place, parts);
+            } else {
+                add_extension(name, place, parts);
             }
-            seen.insert(names.begin(), names.end());
-        });
+        }
+        seen.insert(names.begin(), names.end());
+    });
     std::set<std::string> of_file;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         for (const json& name : array_at(source, list)) {
