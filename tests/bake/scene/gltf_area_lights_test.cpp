@@ -189,7 +189,7 @@ TEST(GltfAreaLights, UnknownTypesAreLeftOutWithAWarning) {
 }
 
 TEST(GltfAreaLights, ThoseScaledToNothingAreLeftOutWithAWarning) {
-    for (const Json scale : {Json{0, 0, 0}, Json{1, 1, 0}}) {
+    for (const Json& scale : {Json{0, 0, 0}, Json{1, 1, 0}}) {
         const auto scene = panel(disk(1.0), {{"scale", scale}}).read();
         ASSERT_TRUE(scene) << error_text(scene.error());
         EXPECT_TRUE(scene->lights.empty());
