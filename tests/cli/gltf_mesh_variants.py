@@ -195,6 +195,14 @@ def _():
     return gltf
 
 
+@variant("texture coordinates of bytes that are not normalized", refused="normalized")
+def _():
+    gltf = textured(half_png())
+    view = gltf.view(bytes((1, 0, 0, 0)) * 24, byteStride=4)
+    gltf.box["attributes"]["TEXCOORD_0"] = gltf.accessor([[1, 0]] * 24, UBYTE, view=view)
+    return gltf
+
+
 @variant("an index that restarts a strip", refused="65535")
 def _():
     gltf = plain()
@@ -471,6 +479,13 @@ def other_image(extension, image, mime, has_fallback):
 @variant("AVIF with a PNG beside it", wrong=white_box)
 def _():
     return other_image("EXT_texture_avif", blob_bytes("avif"), "image/avif", True)
+
+
+@variant("AVIF with a PNG beside it, required", wrong=white_box)
+def _():
+    gltf = other_image("EXT_texture_avif", blob_bytes("avif"), "image/avif", True)
+    gltf.json["extensionsRequired"] = ["EXT_texture_avif"]
+    return gltf
 
 
 @variant("AVIF alone", refused="PNG")

@@ -752,6 +752,20 @@ def _():
     return gltf
 
 
+@variant("extras beside `extras`", told="contribute_gi")
+def _():
+    gltf = plain()
+    gltf.node("box")["contribute_gi"] = False
+    return gltf
+
+
+@variant("a factor beside `pbrMetallicRoughness`", told="move it to pbrMetallicRoughness")
+def _():
+    gltf = plain()
+    gltf.paint["baseColorFactor"] = [0, 0, 1, 1]
+    return gltf
+
+
 @variant("an extension beside `extensions`", twin=glowing([1, 1, 1]), told="KHR_materials_emissive_strength")
 def _():
     gltf = glowing([1, 1, 1])()
@@ -774,7 +788,14 @@ def _():
     return gltf
 
 
-@variant("glTF 1.0", refused="1.0")
+@variant("shaders of WebGL", refused="gltf-pipeline")
+def _():
+    gltf = plain()
+    gltf.extension("KHR_techniques_webgl", gltf.paint, {"technique": 0}, required=True)
+    return gltf
+
+
+@variant("glTF 1.0", refused="gltf-pipeline")
 def _():
     gltf = plain()
     gltf.json["asset"]["version"] = "1.0"

@@ -23,11 +23,26 @@ namespace {
 
 using nlohmann::json;
 
+/// True for an extension of images that are not read, if each texture that has one has another
+/// image, which is read.
+bool has_other_images(const json& document, const std::string& extension) {
+    if (extension != "EXT_texture_avif" && extension != "MSFT_texture_dds") return false;
+    const json* textures = find_json(document, "textures");
+    if (textures == nullptr) return true;
+    return std::ranges::all_of(*textures, [&](const json& texture) {
+        return find_json(texture, "extensions/" + extension) == nullptr ||
+               find_json(texture, "source") != nullptr ||
+               find_json(texture, "extensions/EXT_texture_webp/source") != nullptr;
+    });
+}
+
 /// True if a file may require the extension.
-bool is_supported(const json& extension) {
+bool is_supported(const json& document, const json& extension) {
     if (!extension.is_string()) return false;
-    const GltfExtension* known = find_gltf_extension(extension.get_ref<const std::string&>());
-    return known != nullptr && known->may_be_required;
+    const auto& name = extension.get_ref<const std::string&>();
+    const GltfExtension* known = find_gltf_extension(name);
+    if (known == nullptr) return false;
+    return known->may_be_required || has_other_images(document, name);
 }
 
 Error unsupported_extension(const json& extension) {
@@ -79,7 +94,7 @@ Status check_required_extensions(const json& document) {
         return in_member(wrong_type(*required, "extensionsRequired", "an array"), "");
     }
     for (const json& extension : *required) {
-        if (is_supported(extension)) continue;
+        if (is_supported(document, extension)) continue;
         return unsupported_extension(extension);
     }
     return Ok{};

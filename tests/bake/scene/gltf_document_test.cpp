@@ -86,6 +86,16 @@ TEST(GltfDocument, NoFlippedByteCrashes) {
     }
 }
 
+TEST(GltfDocument, BinaryFilesOfGltf1AreAnErrorThatSaysWhatToDo) {
+    std::string bytes = whole_scene().glb();
+    bytes[4] = 1;
+    EXPECT_EQ(error_of(bytes),
+              "scene.glb: GLB version 1 is not supported (2 is); `gltf-pipeline -i IN.glb -o "
+              "OUT.glb` makes it glTF 2.0");
+    bytes[4] = 3;
+    EXPECT_EQ(error_of(bytes), "scene.glb: GLB version 3 is not supported (2 is)");
+}
+
 TEST(GltfDocument, ChunkThatClaimsAFewBytesTooManyIsAnError) {
     GltfBuilder gltf;
     gltf.add_triangle();

@@ -170,8 +170,22 @@ TEST(GltfRules, SaysWhatToDoAboutRequiredExtensions) {
     for (const auto& [extension, remedy] : remedies) {
         GltfBuilder gltf = linked_scene();
         gltf.json["extensionsRequired"] = {extension};
+        gltf.json["textures"][0]["extensions"][extension] = {{"source", 0}};
         EXPECT_EQ(gltf.error(), "scene.glb: required extension \"" + extension +
                                     "\" is not supported; " + remedy);
+    }
+}
+
+TEST(GltfRules, ImagesThatAreNotReadMayBeRequiredBesideOthers) {
+    for (const char* extension : {"EXT_texture_avif", "MSFT_texture_dds"}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json["extensionsRequired"] = {extension};
+        EXPECT_EQ(gltf.error(), "(no error)") << extension;
+        Json& texture = gltf.json["textures"][0];
+        texture["extensions"][extension] = {{"source", 0}};
+        EXPECT_NE(gltf.error().find("required extension"), std::string::npos) << extension;
+        texture["extensions"]["EXT_texture_webp"] = {{"source", 0}};
+        EXPECT_EQ(gltf.error().find("required extension"), std::string::npos) << extension;
     }
 }
 
