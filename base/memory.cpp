@@ -60,9 +60,4 @@ uint64_t free_memory() {
     return std::min(kilobytes_in("/proc/meminfo", "MemAvailable:"), free_in_group());
 }
 
-uint64_t resident_memory() {
-    const uint64_t bytes = kilobytes_in("/proc/self/status", "VmRSS:");
-    return bytes == kUnknown ? 0 : bytes;
-}
-
 }  // namespace tetralight

@@ -10,9 +10,6 @@ namespace tetralight {
 /// control group if that is less. The largest number if the system does not tell.
 [[nodiscard]] uint64_t free_memory();
 
-/// Bytes of memory that this process has now. 0 if the system does not tell.
-[[nodiscard]] uint64_t resident_memory();
-
 /// sum + count · size; the largest number if that is greater.
 [[nodiscard]] uint64_t add_bytes(uint64_t sum, uint64_t count, uint64_t size = 1);
 

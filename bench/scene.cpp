@@ -14,7 +14,6 @@
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/memory.h>
 #include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
@@ -71,32 +70,35 @@ void bench_load(const std::string& path, const std::string& name, const Options&
     run(contest, options);
 }
 
-/// The peak of a process that reads the scene, as a part of what the headers announce.
-void bench_memory(const std::string& path, const std::string& name) {
-    const uint64_t program = resident_memory();
-    const uint64_t announced = program + read_whole(path).memory.peak_bytes();
+/// The largest memory of a process that runs this program's scene benchmark with `only`, in bytes.
+double peak_of_process(const char* only, const std::string& path) {
     const pid_t child = fork();
     require(child >= 0, "fork");
     if (child == 0) {
-        execl("/proc/self/exe", "tetralight_bench", "scene", "--only", "read", "--scene",
+        execl("/proc/self/exe", "tetralight_bench", "scene", "--only", only, "--scene",
               path.c_str(), nullptr);
         _exit(1);
     }
     rusage usage{};
     int status = 0;
     require(wait4(child, &status, 0, &usage) == child && status == 0, "the reading process");
+    return static_cast<double>(usage.ru_maxrss) * 1024.0;
+}
+
+/// The peak of a process that reads the scene, as a part of what the headers announce and the
+/// program itself has.
+void bench_memory(const std::string& path, const std::string& name) {
+    const auto announced = static_cast<double>(read_whole(path).memory.peak_bytes());
     report("scene.memory." + name,
-           static_cast<double>(usage.ru_maxrss) * 1024.0 / static_cast<double>(announced),
+           peak_of_process("read", path) / (peak_of_process("nothing", path) + announced),
            "peak / announced");
 }
 
 }  // namespace
 
 void bench_scene(const Options& options) {
-    if (options.only == "read" && options.scene) {  // the process of bench_memory()
-        (void)read_whole(*options.scene);
-        return;
-    }
+    if (options.only == "read" && options.scene) (void)read_whole(*options.scene);
+    if (options.only) return;  // a process of bench_memory()
     const std::string courtyard = TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb";
     bench_memory(courtyard, "courtyard");
     bench_load(courtyard, "courtyard", options);

@@ -6,7 +6,6 @@
 
 #include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/scene/scene_bounds.h>
-#include <tetralight/base/memory.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/scene_parts_report.h>
@@ -17,8 +16,8 @@
 namespace tetralight::cli {
 namespace {
 
-/// Code, tables and threads that a process has behind its start: to read a scene, and to bake it.
-constexpr uint64_t kReadingCodeBytes = 3'000'000, kBakingCodeBytes = 10'000'000;
+/// What a process has of code, tables and threads: to read a scene, and to bake it.
+constexpr uint64_t kReadingProgramBytes = 45'000'000, kBakingProgramBytes = 52'000'000;
 
 /// What a scene contains, in numbers.
 struct SceneFacts {
@@ -30,15 +29,14 @@ struct SceneFacts {
     uint64_t bake_bytes = 0;
 };
 
-/// `program_bytes`: what the process had before it read the scene.
-SceneFacts scene_facts(const Scene& scene, uint64_t program_bytes) {
+SceneFacts scene_facts(const Scene& scene) {
     SceneFacts facts;
     for (const MeshInstance& instance : scene.instances)
         facts.triangle_count += scene.meshes[instance.mesh].indices.size() / 3;
     facts.bounds = scene_bounds(scene, [](const MeshInstance&) { return true; });
     const uint64_t bake = scene.memory.scene_bytes() + estimate_bake_memory(scene, 0).total_bytes();
-    facts.reading_bytes = program_bytes + kReadingCodeBytes + scene.memory.peak_bytes();
-    facts.bake_bytes = std::max(facts.reading_bytes, program_bytes + kBakingCodeBytes + bake);
+    facts.reading_bytes = kReadingProgramBytes + scene.memory.peak_bytes();
+    facts.bake_bytes = std::max(facts.reading_bytes, kBakingProgramBytes + bake);
     return facts;
 }
 
@@ -78,11 +76,10 @@ std::string scene_text(const std::string& path, const Scene& scene, const SceneF
 
 Status show_scene(const std::string& path, const SceneReading& reading,
                   const CommonOptions& common) {
-    const uint64_t program_bytes = resident_memory();
     const auto scene = read_scene(path, reading);
     if (!scene) return scene.error();
     common.warn(warnings_beside_parts(*scene));
-    const SceneFacts facts = scene_facts(*scene, program_bytes);
+    const SceneFacts facts = scene_facts(*scene);
     common.print(scene_json(path, *scene, facts), scene_text(path, *scene, facts));
     return Ok{};
 }
