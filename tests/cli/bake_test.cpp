@@ -303,7 +303,8 @@ TEST_F(Bake, WarnsOfBuriedProbesOnStderr) {
         [[1.6, 1, -6.4], [1.7, 1, -6.4], [1.6, 1.1, -6.4], [1.6, 1, -6.3]]}]})");
     const CommandResult result =
         succeed({"bake", kCourtyard, "-g", "buried.json", "-o", "v.probes", "-s", "16", "--json"});
-    EXPECT_TRUE(contains(result.err, "warning: group \"buried\": 4 of 4")) << result.err;
+    EXPECT_TRUE(contains(result.err, "warning: buried.json: group \"buried\": 4 of 4"))
+        << result.err;
     EXPECT_TRUE(Json::accept(result.out));
 }
 

@@ -82,7 +82,7 @@ TEST_F(TetgenBackend, KeepsTheOldVolumeWhenTheProgramFails) {
               "fake: ended by signal 11 (Segmentation fault): lines");
     fail_with("exit 0", "fake: its output ends after 0 bytes");
     fail_with("exec yes", "fake: its output has an unknown format or version");
-    fail_with("printf '\\033[2J' >&2; exit 9", "fake: ended with exit code 9: ?[2J");
+    fail_with("printf '\\033[2J' >&2; exit 9", "fake: ended with exit code 9: \\u001b[2J");
 }
 
 TEST_F(TetgenBackend, NamesAProgramThatIsNotThere) {

@@ -98,9 +98,9 @@ std::vector<std::byte> padded_elements(const RawElements& elements, size_t strid
 
 Result<GltfParts> GltfParts::open(const GltfDocument& document) {
     GltfParts parts;
-    auto json = read_json(document.path);
-    if (!json) return json.error();
-    parts.json = std::move(*json);
+    auto file = read_json(document.path);
+    if (!file) return file.error();
+    parts.json = std::move(*file);
     if (parts.json.contains("accessors")) parts.source_accessors = parts.json["accessors"];
     // Views behind those of the file have what its compressed primitives decode to.
     const size_t view_count = parts.json.value("bufferViews", GltfJson::array()).size();
