@@ -4,6 +4,7 @@
 #include <charconv>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -225,6 +226,10 @@ Status check_first_bytes(std::string_view bytes) {
 }
 
 Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
+    if (bytes.size() > std::numeric_limits<uint32_t>::max()) {
+        return Error{ErrorCode::Unsupported,
+                     str_cat(bytes.size(), " bytes are too many for a group file")};
+    }
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (auto status = check_first_bytes(characters); !status) return status.error();
     if (auto status = check_json_shape(characters); !status) return status.error();

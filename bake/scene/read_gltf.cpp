@@ -29,10 +29,6 @@
 namespace tetralight {
 namespace {
 
-void append_warnings(Scene& scene, const std::vector<std::string>& warnings) {
-    scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
-}
-
 Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps, Scene& scene,
                     detail::GltfMeshes& meshes, detail::PartList& parts) {
     auto read = detail::read_meshes(document, normal_maps);
@@ -51,19 +47,20 @@ Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps
     scene.normal_maps = std::move(materials->normal_maps);
     parts.append(materials->parts);
     detail::assign_default_material(scene.materials, scene.meshes);
-    append_warnings(scene, meshes.warnings);
-    append_warnings(scene, materials->warnings);
+    parts.append(meshes.parts.parts());
     return Ok{};
 }
 
-void warn_about_skins(const detail::GltfDocument& document,
-                      std::span<const detail::GltfWorldNode> nodes, Scene& scene) {
+void add_skins_without_joints(const detail::GltfDocument& document,
+                              std::span<const detail::GltfWorldNode> nodes,
+                              detail::PartList& parts) {
     for (const detail::GltfWorldNode& placed : nodes) {
         const detail::GltfNode& node = document.nodes[placed.node];
         const bool is_left_out = node.skin != kNoIndex && !detail::is_skinned(document, node);
         if (!is_left_out || !placed.contributes_gi) continue;
-        scene.warnings.push_back(detail::gltf_place("node", placed.node, node.name) +
-                                 ": skin is left out; its mesh stands as it was modelled");
+        parts.add_left_out("skins of meshes without joints",
+                           "are left out; the meshes stand where their nodes do", true,
+                           detail::gltf_place("node", placed.node, node.name));
     }
 }
 
@@ -109,10 +106,10 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     auto scene_nodes = detail::scene_nodes(document, *nodes);
     if (!scene_nodes) return scene_nodes.error();
     scene.nodes = std::move(*scene_nodes);
-    append_warnings(scene, lights->warnings);
-    scene.cameras = detail::read_cameras(document, *nodes, scene.warnings);
+    parts.append(lights->parts.parts());
+    scene.cameras = detail::read_cameras(document, *nodes, parts);
     add_flat_groups(document, *nodes, parts);
-    warn_about_skins(document, *nodes, scene);
+    add_skins_without_joints(document, *nodes, parts);
     return Ok{};
 }
 
@@ -127,13 +124,13 @@ Status add_constant_sky(const detail::GltfDocument& document, Scene& scene) {
 }
 
 /// The sky of the scene's extras, else its image-based light.
-Status add_sky(const detail::GltfDocument& document, Scene& scene) {
+Status add_sky(const detail::GltfDocument& document, Scene& scene, detail::PartList& parts) {
     if (document.sky_radiance) return add_constant_sky(document, scene);
     if (!document.image_based_light || !document.image_based_light->is_sky) return Ok{};
     auto sky = detail::read_image_based_light(document, *document.image_based_light);
     if (!sky) return sky.error();
     scene.environment = std::move(sky->environment);
-    append_warnings(scene, sky->warnings);
+    parts.append(sky->parts.parts());
     return Ok{};
 }
 
@@ -143,7 +140,7 @@ Status add_all(const detail::GltfDocument& document, const SceneReading& reading
     detail::GltfMeshes meshes;
     const auto surfaces = add_surfaces(document, reading.normal_maps, scene, meshes, parts);
     if (!surfaces) return surfaces;
-    const auto sky = add_sky(document, scene);
+    const auto sky = add_sky(document, scene, parts);
     if (!sky) return sky;
     return add_nodes(document, meshes, scene, parts);
 }

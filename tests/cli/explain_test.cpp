@@ -82,8 +82,9 @@ TEST_F(Explain, PartsThatAreIgnoredAreRowsAndNotWarnings) {
     std::string glass = scene_with("3");
     const std::string used = R"("extensionsUsed": [)";
     glass.insert(glass.find(used) + used.size(), R"("KHR_materials_volume", )");
-    glass.insert(glass.find(R"("meshes")"),
-                 R"("materials": [{"name": "jar", "extensions": {"KHR_materials_volume": {}}}], )");
+    glass.insert(
+        glass.find(R"("meshes")"),
+        R"("materials": [{"name": "jar", "extensions": {"KHR_materials_volume": {"thicknessFactor": 1}}}], )");
     write("glass.gltf", glass);
     const CommandResult shown = succeed({"explain", "glass.gltf"});
     EXPECT_EQ(shown.err, "");

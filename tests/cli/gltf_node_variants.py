@@ -385,7 +385,7 @@ def _():
     return gltf
 
 
-@variant("a skin of a mesh without joints", told="skin is left out")
+@variant("a skin of a mesh without joints", told="skins of meshes without joints")
 def _():
     gltf = plain()
     gltf.json["skins"] = [{"joints": [0]}]

@@ -101,6 +101,10 @@ std::optional<size_t> light_in_lumens(const GltfDocument& document, const Scene&
     return static_cast<size_t>(found - scene.lights.begin());
 }
 
+bool fades_over_distance(const Light& light) {
+    return light.type != LightType::Directional;
+}
+
 /// The sizes of all objects, metres, ascending.
 std::vector<double> object_sizes(const Scene& scene) {
     const std::vector<float> mesh_size = mesh_sizes(scene);
@@ -140,7 +144,7 @@ bool has_distant_lamps(const Scene& scene) {
     if (length_unit_hint(scene).empty()) return false;
     size_t lamps = 0;
     for (const Light& light : scene.lights) {
-        if (light.type == LightType::Directional || lamps == kMostLamps) continue;
+        if (!fades_over_distance(light) || lamps == kMostLamps) continue;
         if (is_near_surface(scene, glm::dvec3(light.position), kDistantLamp)) return false;
         ++lamps;
     }
@@ -153,7 +157,6 @@ void add_light_unit(const GltfDocument& document, const Scene& scene, bool has_o
                     PartList& parts) {
     const float emission = brightest_emission(scene);
     const bool has_sky = has_other_sky || !scene.environment.image.pixels.empty();
-    if (!(emission > 0.0f) && !has_sky) return;
     const auto index = light_in_lumens(document, scene, emission);
     if (!index) return;
     const Light& light = scene.lights[*index];
@@ -161,12 +164,17 @@ void add_light_unit(const GltfDocument& document, const Scene& scene, bool has_o
     ScenePart part;
     part.use = PartUse::Approximated;
     part.name = "units of lights";
+    std::string others;
+    if (emission > 0.0f) {
+        others = str_cat(" beside emission of ", emission);
+    } else if (has_sky) {
+        others = " beside a sky";
+    }
     part.note = str_cat(is_sun ? "the sun is " : "the light is ", largest(light.intensity),
-                        is_sun ? " lux" : " candela", " beside ",
-                        emission > 0.0f ? str_cat("emission of ", emission) : std::string("a sky"),
+                        is_sun ? " lux" : " candela", others,
                         ", as exporters write it that count a watt as 683 lumens");
     part.remedy = "--light-unit watt divides lights by 683";
-    part.changes_light = true;
+    part.changes_light = !others.empty();
     parts.add(part, str_cat("\"", scene.light_names[*index], "\""));
 }
 
@@ -177,19 +185,20 @@ void add_length_unit(const Scene& scene, PartList& parts) {
     constexpr size_t kFewest = 3;  // one large object may be a landscape
     std::string reason;
     if (size >= kTooLarge && sizes.size() >= kFewest) {
-        reason =
-            str_cat("three of four objects are larger than ", static_cast<int64_t>(size), " m");
+        reason = str_cat("the boxes of three of four objects have diagonals of more than ",
+                         static_cast<int64_t>(size), " m");
     } else if (sizes.front() >= kTooLarge && has_distant_lamps(scene)) {
-        reason = str_cat("all objects are larger than ", static_cast<int64_t>(sizes.front()),
-                         " m, and all lamps farther than ", kDistantLamp, " m from them");
+        reason = str_cat("the boxes of all objects have diagonals of more than ",
+                         static_cast<int64_t>(sizes.front()), " m, and all lamps are farther than ",
+                         kDistantLamp, " m from them");
     }
     if (reason.empty()) return;
     ScenePart part;
     part.use = PartUse::Approximated;
     part.name = "units of length";
-    part.note = reason + "; lights fade over distance in metres";
+    part.note = reason + "; metres are assumed";
     part.remedy = "if the unit is a centimetre, scale the scene by 0.01";
-    part.changes_light = true;
+    part.changes_light = std::ranges::any_of(scene.lights, fades_over_distance);
     parts.add(part, "the scene");
 }
 

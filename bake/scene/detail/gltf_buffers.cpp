@@ -16,7 +16,7 @@ namespace tetralight::detail {
 namespace {
 
 using nlohmann::json;
-using BufferBytes = std::vector<unsigned char>;
+using BufferBytes = std::vector<std::byte>;
 
 /// The six bits of a character of base64 (RFC 4648); −1 for others.
 int base64_bits(char c) {
@@ -43,36 +43,34 @@ Result<BufferBytes> decode_base64(std::string_view text) {
         bit_count += 6;
         if (bit_count < 8) continue;
         bit_count -= 8;
-        bytes.push_back(static_cast<unsigned char>(bits >> bit_count));
+        bytes.push_back(static_cast<std::byte>(bits >> bit_count));
     }
     return bytes;
 }
 
-Result<BufferBytes> read_uri(const std::string& uri, const std::string& folder) {
+Result<BufferBytes> read_uri(const std::string& uri, const std::string& scene_path) {
     if (is_data_uri(uri)) return decode_data_uri(uri);
-    const auto relative = relative_path_from_uri(uri);
-    if (!relative) return relative.error();
-    const auto bytes = read_file(folder + *relative);
+    const auto path = path_from_uri(uri, scene_path);
+    if (!path) return path.error();
+    auto bytes = read_file(*path);
     if (!bytes) {
         Error error = in_member(bytes.error(), ".uri");
         error.value.clear();  // the path, where the file has a URI
         return error;
     }
-    const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
-    return BufferBytes(first, first + bytes->size());
+    return bytes;
 }
 
-Result<BufferBytes> read_buffer(const json& buffer, const std::string& folder,
+Result<BufferBytes> read_buffer(const json& buffer, const std::string& scene_path,
                                 std::optional<std::span<const std::byte>> binary_chunk) {
     if (is_fallback_buffer(buffer)) return BufferBytes();
     const auto length = size_at(buffer, "byteLength", 0);
     const std::string uri = string_at(buffer, "uri");
     Result<BufferBytes> bytes = BufferBytes();
     if (!uri.empty()) {
-        bytes = read_uri(uri, folder);
+        bytes = read_uri(uri, scene_path);
     } else if (binary_chunk && length <= binary_chunk->size()) {
-        const auto* first = reinterpret_cast<const unsigned char*>(binary_chunk->data());
-        bytes = BufferBytes(first, first + length);
+        bytes = BufferBytes(binary_chunk->begin(), binary_chunk->begin() + length);
     } else if (binary_chunk) {
         bytes->resize(binary_chunk->size());
     }
@@ -106,13 +104,13 @@ bool is_fallback_buffer(const json& buffer) {
 }
 
 Result<std::vector<BufferBytes>> read_buffers(
-    const json& document, const std::string& folder,
+    const json& document, const std::string& scene_path,
     std::optional<std::span<const std::byte>> binary_chunk) {
     std::vector<BufferBytes> buffers;
     const json& sources = array_at(document, "buffers");
     for (size_t i = 0; i < sources.size(); ++i) {
         const bool is_first = i == 0;
-        auto bytes = read_buffer(sources[i], folder, is_first ? binary_chunk : std::nullopt);
+        auto bytes = read_buffer(sources[i], scene_path, is_first ? binary_chunk : std::nullopt);
         if (!bytes) return in_element(bytes.error(), "buffers", i, "");
         buffers.push_back(std::move(*bytes));
     }

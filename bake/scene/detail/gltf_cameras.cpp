@@ -21,7 +21,7 @@ glm::dmat4 without_scale(glm::dmat4 matrix) {
 }  // namespace
 
 std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const GltfWorldNode> nodes,
-                                 std::vector<std::string>& warnings) {
+                                 PartList& parts) {
     std::vector<Camera> cameras;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
@@ -29,8 +29,8 @@ std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const G
         const GltfCamera& source = document.cameras[node.camera];
         if (!source.fov_y_radians && !source.half_height) continue;
         if (!is_invertible(placed.world_from_node)) {
-            warnings.push_back(gltf_place("node", placed.node, node.name) +
-                               ": is scaled to 0, so that its camera looks nowhere; left out");
+            parts.add_left_out("cameras scaled to 0", "look nowhere; left out", false,
+                               gltf_place("node", placed.node, node.name));
             continue;
         }
         Camera camera;

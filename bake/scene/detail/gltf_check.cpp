@@ -251,9 +251,24 @@ Status check_document(const json& document, GltfContainer container) {
     return check_buffer_views(document);
 }
 
+/// Refuses what does not begin as an object, by what it begins with: an empty file, a page of HTML,
+/// a pointer of Git LFS.
+Status check_beginning(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    const size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos)
+        return Error{ErrorCode::Corrupt, "is not glTF: it is empty"};
+    if (text[first] == '{') return Ok{};
+    constexpr size_t kShown = 24;
+    return Error{ErrorCode::Corrupt, str_cat("is not glTF: it begins with \"",
+                                             quoted_value(text.substr(first, kShown)), "\"")};
+}
+
 }  // namespace
 
 Result<json> parse_gltf_json(std::string_view json_text, GltfContainer container) {
+    if (auto status = check_beginning(json_text); !status) return status.error();
     if (auto status = check_json_shape(json_text); !status) return status.error();
     try {
         json document = json::parse(json_text);

@@ -54,6 +54,12 @@ std::string scene_list(const json& scenes) {
 Result<uint32_t> find_scene(const json& document, const std::string& text) {
     const json& scenes = array_at(document, "scenes");
     if (text.empty()) return static_cast<uint32_t>(size_at(document, "scene", 0));
+    const auto named_count = std::ranges::count(scenes, text, scene_name);
+    if (named_count > 1) {
+        return Error{ErrorCode::InvalidArgument, "scene", quoted_value(text),
+                     str_cat("has ", named_count, " scenes \"", quoted_value(text),
+                             "\", which a number tells apart: it has ", scene_list(scenes))};
+    }
     const auto named = std::ranges::find(scenes, text, scene_name);
     if (named != scenes.end()) return static_cast<uint32_t>(named - scenes.begin());
     uint32_t index = 0;
@@ -69,10 +75,9 @@ Status decode_image_uris(GltfDocument& document) {
     for (size_t i = 0; i < document.images.size(); ++i) {
         GltfImage& image = document.images[i];
         if (!is_data_uri(image.uri)) continue;
-        const auto bytes = decode_data_uri(image.uri);
+        auto bytes = decode_data_uri(image.uri);
         if (!bytes) return in_element(bytes.error(), "images", i, image.name);
-        const auto* first = reinterpret_cast<const std::byte*>(bytes->data());
-        image.encoded.assign(first, first + bytes->size());
+        image.encoded = std::move(*bytes);
     }
     return Ok{};
 }
@@ -92,21 +97,22 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
                                      chunks->json.size());
     auto source = parse_gltf_json(json_text, container);
     if (!source) return source.error();
-    std::vector<std::string> warnings = clean_names(*source);
+    const std::vector<ScenePart> changed_names = clean_names(*source);
     const auto chosen = find_scene(*source, scene);
     if (!chosen) return chosen.error();
     GltfDocument document = document_from(*source);
     document.path = path;
-    document.warnings = std::move(warnings);
+    for (const ScenePart& part : changed_names) document.warnings.push_back(part_warning(part));
     document.memory = geometry_memory(*source, document, bytes);
     if (auto status = check_reading_memory(document.memory); !status) return status.error();
-    auto buffers = read_buffers(*source, folder_of(path), chunks->binary);
+    auto buffers = read_buffers(*source, path, chunks->binary);
     if (!buffers) return buffers.error();
     document.buffers = std::move(*buffers);
     choose_scene(*source, *chosen, document);
     if (auto status = decode_meshopt(document); !status) return status.error();
     if (auto status = decode_draco(document); !status) return status.error();
     PartList parts;
+    parts.append(changed_names);
     add_unread_parts(*source, document, parts);
     add_unknown_extras(*source, parts);
     add_unknown_members(*source, parts);

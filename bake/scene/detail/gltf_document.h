@@ -307,7 +307,7 @@ struct GltfDocument {
     std::string path;
     /// The program that wrote the file, as it calls itself: `asset.generator`.
     std::string generator;
-    std::vector<std::vector<unsigned char>> buffers;
+    std::vector<std::vector<std::byte>> buffers;
     std::vector<GltfBufferView> buffer_views;
     std::vector<GltfAccessor> accessors;
     std::vector<GltfMesh> meshes;

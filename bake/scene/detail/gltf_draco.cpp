@@ -25,7 +25,7 @@
 namespace tetralight::detail {
 namespace {
 
-using DracoBytes = std::vector<unsigned char>;
+using DracoBytes = std::vector<std::byte>;
 
 constexpr uint32_t kTriangleList = 4;
 constexpr const char* kDracoMember = ".extensions.KHR_draco_mesh_compression";
@@ -234,7 +234,7 @@ Result<DracoBytes> decode_attribute(const draco::Mesh& mesh, uint32_t id, const 
 template <class T>
 std::optional<DracoBytes> convert_indices(const draco::Mesh& mesh) {
     DracoBytes bytes(size_t{mesh.num_faces()} * 3 * sizeof(T));
-    unsigned char* next = bytes.data();
+    std::byte* next = bytes.data();
     for (uint32_t face = 0; face < mesh.num_faces(); ++face) {
         for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(face))) {
             if (point.value() > std::numeric_limits<T>::max()) return std::nullopt;

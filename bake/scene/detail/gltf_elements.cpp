@@ -132,14 +132,14 @@ GltfMaterial material_from(const json& material) {
     return result;
 }
 
-/// Files that have a WebP image beside a PNG or JPEG image are read with the latter.
+/// Files that have a PNG or JPEG image beside a WebP image are read with the latter
+/// (EXT_texture_webp).
 GltfTexture texture_from(const json& texture) {
     GltfTexture result{string_at(texture, "name"), index_at(texture, "source"),
                        index_at(texture, "sampler"),
                        index_at(texture, "extensions/KHR_texture_basisu/source")};
-    if (result.image == kNoIndex) {
-        result.image = index_at(texture, "extensions/EXT_texture_webp/source");
-    }
+    const uint32_t webp = index_at(texture, "extensions/EXT_texture_webp/source");
+    if (webp != kNoIndex) result.image = webp;
     return result;
 }
 
@@ -181,7 +181,9 @@ GltfCamera camera_from(const json& camera) {
     GltfCamera result;
     result.name = string_at(camera, "name");
     const std::string type = string_at(camera, "type");
-    if (type == "perspective") result.fov_y_radians = number_at(camera, "perspective/yfov", 0.0);
+    const double fov_y = number_at(camera, "perspective/yfov", 0.0);
+    const bool is_fov = fov_y > 0.0 && fov_y < std::numbers::pi;
+    if (type == "perspective" && is_fov) result.fov_y_radians = fov_y;
     const double half_height = number_at(camera, "orthographic/ymag", 0.0);
     if (type == "orthographic" && half_height > 0.0) result.half_height = half_height;
     return result;

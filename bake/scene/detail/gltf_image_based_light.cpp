@@ -201,10 +201,17 @@ Result<std::optional<CubeFaces>> read_faces(const GltfDocument& document,
         if (faces) return std::optional(std::move(*faces));
         const Error& error = faces.error();
         if (error.code != ErrorCode::Unsupported || !has_coefficients) return error;
-        reason = str_cat(error.field, " (", error.value, ") is not supported");
+        const std::string value = error.value.empty() ? "" : str_cat(" (", error.value, ")");
+        reason = str_cat(error.field, value, " is of a format that is not read");
     }
-    sky.warnings.push_back(str_cat(
-        place, ": the sky is that of its irradianceCoefficients, without detail: ", reason));
+    sky.parts.add({PartUse::Approximated,
+                   "image-based sky",
+                   0,
+                   {},
+                   str_cat("is that of the irradianceCoefficients, without detail: ", reason),
+                   "",
+                   true},
+                  place);
     return std::optional<CubeFaces>();
 }
 

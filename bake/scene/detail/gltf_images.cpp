@@ -32,16 +32,18 @@ Result<T> from_file(const GltfDocument& document, const GltfImage& image, const 
         return Error{ErrorCode::Unsupported, ".uri", quoted_value(image.uri),
                      place + ": kind of data URI is not supported"};
     }
-    const auto relative = relative_path_from_uri(image.uri);
-    if (!relative) return relative.error().in(place);
-    const std::string path = folder_of(document.path) + *relative;
-    const auto file = MappedFile::open(path);
+    if (image.uri.empty()) {
+        return Error{ErrorCode::Corrupt, ".uri", "", place + ": has neither uri nor bufferView"};
+    }
+    const auto path = path_from_uri(image.uri, document.path);
+    if (!path) return path.error().in(place);
+    const auto file = MappedFile::open(*path);
     if (!file) {
         Error error = in_member(file.error().in(place), ".uri");
         error.value = quoted_value(image.uri);
         return error;
     }
-    auto result = read(file->bytes(), str_cat(place, ": ", path));
+    auto result = read(file->bytes(), str_cat(place, ": ", *path));
     if (!result) return in_member(result.error(), ".uri");
     return result;
 }

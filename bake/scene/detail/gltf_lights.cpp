@@ -27,9 +27,9 @@ std::optional<LightType> area_type_from(const std::string& type) {
     return std::nullopt;
 }
 
-std::string unknown_type(const char* kind, size_t index, const std::string& name,
-                         const std::string& type) {
-    return str_cat(gltf_place(kind, index, name), ": type \"", type, "\" is not known; left out");
+void leave_out_unknown_type(const std::string& type, const std::string& place, PartList& parts) {
+    parts.add_left_out("lights of unknown type",
+                       str_cat("type \"", type, "\" is not known; left out"), true, place);
 }
 
 /// Sets colour times intensity times `factor`, which is 1 or the area of a light in m².
@@ -201,14 +201,13 @@ Result<Light> read_area_light(const GltfAreaLight& source, LightType type,
     return light;
 }
 
-/// Adds a warning, and returns true, if a light lacks an axis on a node that is scaled to 0.
+/// Adds a part, and returns true, if a light lacks an axis on a node that is scaled to 0.
 bool is_left_out(const GltfNode& node, const GltfWorldNode& placed, LightType type,
                  GltfLights& lights) {
     const char* missing = missing_axis(placed.world_from_node, type);
     if (missing == nullptr) return false;
-    lights.warnings.push_back(str_cat(gltf_place("node", placed.node, node.name),
-                                      ": is scaled to 0, so that its light has no ", missing,
-                                      "; left out"));
+    lights.parts.add_left_out("lights scaled to 0", str_cat("have no ", missing, "; left out"),
+                              true, gltf_place("node", placed.node, node.name));
     return true;
 }
 
@@ -220,7 +219,8 @@ Status add_punctual_light(const GltfDocument& document, const GltfWorldNode& pla
     const GltfLight& source = document.lights[node.light];
     const auto type = type_from(source.type);
     if (!type) {
-        lights.warnings.push_back(unknown_type("light", node.light, source.name, source.type));
+        leave_out_unknown_type(source.type, gltf_place("light", node.light, source.name),
+                               lights.parts);
         return Ok{};
     }
     const auto light = read_light(source, *type, placed, node);
@@ -239,18 +239,23 @@ Status add_area_light(const GltfDocument& document, const GltfWorldNode& placed,
     const GltfAreaLight& source = document.area_lights[node.area_light];
     const auto type = area_type_from(source.type);
     if (!type) {
-        lights.warnings.push_back(
-            unknown_type("area light", node.area_light, source.name, source.type));
+        leave_out_unknown_type(source.type, gltf_place("area light", node.area_light, source.name),
+                               lights.parts);
         return Ok{};
     }
     if (is_left_out(node, placed, *type, lights)) return Ok{};
     const auto light = read_area_light(source, *type, placed, node);
     if (!light) return in_element(light.error(), "area lights", node.area_light, source.name);
     if (!source.intensity) {
-        lights.warnings.push_back(
-            str_cat(gltf_place("area light", node.area_light, source.name),
-                    ": has no intensity, which stands for ", kDefaultLuminance,
-                    " cd/m² in EXT_lights_area, and for 1 in files of Babylon.js"));
+        lights.parts.add({PartUse::Approximated,
+                          "area lights without intensity",
+                          0,
+                          {},
+                          str_cat("none stands for ", kDefaultLuminance,
+                                  " cd/m² in EXT_lights_area, and for 1 in files of Babylon.js"),
+                          "give them an intensity",
+                          true},
+                         gltf_place("area light", node.area_light, source.name));
     }
     lights.lights.push_back(*light);
     lights.names.push_back(node.name.empty() ? source.name : node.name);

@@ -7,6 +7,7 @@
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
@@ -15,7 +16,8 @@ struct GltfLights {
     std::vector<Light> lights;
     /// The node's name, else the light's.
     std::vector<std::string> names;
-    std::vector<std::string> warnings;
+    /// What is left out or ambiguous.
+    PartList parts;
 };
 
 /// The lights of the nodes, placed in the world. Leaves out those to which a scale of 0 leaves no

@@ -205,13 +205,12 @@ Result<GltfMaterials> read_materials(const GltfDocument& document, NormalMaps no
         result.ignores_vertex_alpha.push_back(source.alpha_mode == "OPAQUE");
         result.materials.push_back(std::move(*material));
     }
-    result.parts = parts.parts();
     result.textures = std::move(readers.textures.textures);
     if (has_converted) drop_unused_textures(result.materials, result.textures);
     result.normal_maps = std::move(normal_reader.textures);
-    result.warnings = std::move(readers.textures.warnings);
-    result.warnings.insert(result.warnings.end(), normal_reader.warnings.begin(),
-                           normal_reader.warnings.end());
+    parts.append(readers.textures.parts.parts());
+    parts.append(normal_reader.parts.parts());
+    result.parts = parts.parts();
     return result;
 }
 

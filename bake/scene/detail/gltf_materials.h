@@ -15,7 +15,6 @@ struct GltfMaterials {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Texture> normal_maps;
-    std::vector<std::string> warnings;
     /// Materials that are not read as their format defines them.
     std::vector<ScenePart> parts;
     /// Whether the file says that a material is opaque, which may let light through all the same.

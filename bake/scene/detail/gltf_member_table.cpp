@@ -35,6 +35,10 @@ constexpr std::string_view kTextureInfoNames[] = {"index", "texCoord"};
 constexpr std::string_view kNormalTextureNames[] = {"index", "texCoord", "scale"};
 constexpr std::string_view kOcclusionTextureNames[] = {"index", "texCoord", "strength"};
 constexpr std::string_view kEmissiveStrengthNames[] = {"emissiveStrength"};
+constexpr std::string_view kSpecularGlossinessNames[] = {"diffuseFactor", "diffuseTexture",
+                                                         "specularFactor", "glossinessFactor",
+                                                         "specularGlossinessTexture"};
+constexpr std::string_view kTransmissionNames[] = {"transmissionFactor", "transmissionTexture"};
 constexpr std::string_view kMeshNames[] = {"primitives", "weights", "name"};
 constexpr std::string_view kPrimitiveNames[] = {"attributes", "indices", "material", "mode",
                                                 "targets"};
@@ -47,6 +51,11 @@ constexpr std::string_view kSkinNames[] = {"inverseBindMatrices", "skeleton", "j
 constexpr std::string_view kTextureNames[] = {"sampler", "source", "name"};
 constexpr std::string_view kLightNames[] = {"name", "color", "intensity", "type", "range", "spot"};
 constexpr std::string_view kSpotNames[] = {"innerConeAngle", "outerConeAngle"};
+constexpr std::string_view kAreaLightNames[] = {"name", "color", "intensity",
+                                                "type", "size",  "rect"};
+constexpr std::string_view kAreaRectNames[] = {"aspect"};
+constexpr std::string_view kPerspectiveNames[] = {"aspectRatio", "yfov", "zfar", "znear"};
+constexpr std::string_view kOrthographicNames[] = {"xmag", "ymag", "zfar", "znear"};
 constexpr std::string_view kFileNames[] = {"extensionsUsed", "extensionsRequired",
                                            "accessors",      "animations",
                                            "asset",          "buffers",
@@ -81,6 +90,10 @@ constexpr GltfMembers kMemberTable[] = {
     {"occlusionTexture", "materials", "occlusionTexture", kOcclusionTextureNames},
     {"KHR_materials_emissive_strength", "materials", "extensions/KHR_materials_emissive_strength",
      kEmissiveStrengthNames},
+    {"KHR_materials_pbrSpecularGlossiness", "materials",
+     "extensions/KHR_materials_pbrSpecularGlossiness", kSpecularGlossinessNames},
+    {"KHR_materials_transmission", "materials", "extensions/KHR_materials_transmission",
+     kTransmissionNames},
     {"meshes", "meshes", "", kMeshNames},
     {"primitives", "meshes", "primitives", kPrimitiveNames},
     {"nodes", "nodes", "", kNodeNames},
@@ -90,6 +103,10 @@ constexpr GltfMembers kMemberTable[] = {
     {"textures", "textures", "", kTextureNames},
     {"lights", "lights", "", kLightNames},
     {"spot", "lights", "spot", kSpotNames},
+    {"area lights", "area lights", "", kAreaLightNames},
+    {"rect", "area lights", "rect", kAreaRectNames},
+    {"perspective", "cameras", "perspective", kPerspectiveNames},
+    {"orthographic", "cameras", "orthographic", kOrthographicNames},
     {"the file", "", "", kFileNames},
     {"asset", "", "asset", kAssetNames},
 };

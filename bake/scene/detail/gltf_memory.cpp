@@ -28,23 +28,23 @@ constexpr uint64_t kJsonBytesPerByte = 7;
 constexpr uint64_t kDracoBytesPerTriangle = 100;
 
 /// The bytes that read_buffers() reads for a buffer.
-uint64_t buffer_size(const nlohmann::json& buffer, const std::string& folder) {
+uint64_t buffer_size(const nlohmann::json& buffer, const std::string& scene_path) {
     if (is_fallback_buffer(buffer)) return 0;
     const std::string uri = string_at(buffer, "uri");
     if (uri.empty()) return size_at(buffer, "byteLength", 0);
     if (is_data_uri(uri)) return uri.size() / 4 * 3;
-    const auto relative = relative_path_from_uri(uri);
+    const auto path = path_from_uri(uri, scene_path);
     std::error_code error;
-    const uint64_t size = relative ? std::filesystem::file_size(folder + *relative, error) : 0;
+    const uint64_t size = path ? std::filesystem::file_size(*path, error) : 0;
     return error ? 0 : size;
 }
 
-uint64_t encoded_buffer_bytes(const nlohmann::json& source, const std::string& folder,
+uint64_t encoded_buffer_bytes(const nlohmann::json& source, const std::string& scene_path,
                               uint64_t file_size) {
     uint64_t sum = 0;
     for (const nlohmann::json& buffer : array_at(source, "buffers")) {
         const bool is_in_file = string_at(buffer, "uri").empty();
-        const uint64_t size = buffer_size(buffer, folder);
+        const uint64_t size = buffer_size(buffer, scene_path);
         sum = add_bytes(sum, is_in_file ? std::min(size, file_size) : size);
     }
     return sum;
@@ -182,7 +182,7 @@ uint64_t sky_bytes(const GltfDocument& document) {
 SceneMemory geometry_memory(const nlohmann::json& source, const GltfDocument& document,
                             std::span<const std::byte> file) {
     SceneMemory memory;
-    const uint64_t encoded = encoded_buffer_bytes(source, folder_of(document.path), file.size());
+    const uint64_t encoded = encoded_buffer_bytes(source, document.path, file.size());
     const uint64_t text = file.size() - std::min<uint64_t>(file.size(), encoded);
     memory.file_bytes = add_bytes(file.size(), text, kJsonBytesPerByte);
     memory.file_bytes = add_bytes(memory.file_bytes, draco_decoder_bytes(document));

@@ -175,10 +175,12 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, NormalMap
         result.primitive_of.push_back(static_cast<uint32_t>(i));
     }
     if (flat_count > 0) {
-        const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);
-        const char* triangles = flat_count == 1 ? " triangle" : " triangles";
-        result.warnings.push_back(
-            str_cat(place, ": ", flat_count, triangles, " without area left out"));
+        ScenePart part;
+        part.use = PartUse::Ignored;
+        part.name = "triangles without area";
+        part.note = "are left out: no ray can hit them";
+        result.parts.add(part, gltf_place("mesh", result.meshes_of.size() - 1, source.name));
+        result.parts.add_count(part, flat_count - 1);
     }
     return Ok{};
 }

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <string>
 #include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 
@@ -23,8 +23,8 @@ struct GltfMeshes {
     std::map<uint32_t, std::vector<uint32_t>> posed_meshes_of;
     /// For each of `meshes`, the index of its primitive in the glTF mesh.
     std::vector<uint32_t> primitive_of;
-    /// One for each mesh that has triangles without area, which are left out.
-    std::vector<std::string> warnings;
+    /// Triangles without area are left out.
+    PartList parts;
 
     /// The meshes of a node that has a glTF mesh.
     [[nodiscard]] const std::vector<uint32_t>& meshes_of_node(const GltfDocument& document,

@@ -14,7 +14,7 @@
 namespace tetralight::detail {
 namespace {
 
-using MeshoptBytes = std::vector<unsigned char>;
+using MeshoptBytes = std::vector<std::byte>;
 
 constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
@@ -110,8 +110,8 @@ Status check_view(const GltfBufferView& view) {
         str_cat(meshopt.byte_length, " bytes are too few for ", size, " decoded bytes"));
 }
 
-Result<std::span<const unsigned char>> compressed_bytes(const GltfDocument& document,
-                                                        const GltfMeshopt& meshopt) {
+Result<std::span<const std::byte>> compressed_bytes(const GltfDocument& document,
+                                                    const GltfMeshopt& meshopt) {
     const MeshoptBytes& buffer = document.buffers[meshopt.buffer];
     const uint64_t end = meshopt.byte_offset + meshopt.byte_length;
     if (meshopt.byte_length > 0 && end <= buffer.size()) {
@@ -123,7 +123,7 @@ Result<std::span<const unsigned char>> compressed_bytes(const GltfDocument& docu
                 meshopt.buffer, " (", buffer.size(), " bytes)"));
 }
 
-Status check_header(const GltfMeshopt& meshopt, unsigned char first) {
+Status check_header(const GltfMeshopt& meshopt, unsigned first) {
     const MeshoptHeader header = header_of(meshopt.mode);
     const unsigned version = first & 0xfu;
     if (first >> 4u != header.mode) {
@@ -148,8 +148,10 @@ void apply_filter(const GltfMeshopt& meshopt, MeshoptBytes& elements) {
 }
 
 Result<MeshoptBytes> decode_elements(const GltfMeshopt& meshopt,
-                                     std::span<const unsigned char> bytes) {
+                                     std::span<const std::byte> compressed) {
     const size_t count = meshopt.count, stride = meshopt.byte_stride;
+    const std::span bytes(reinterpret_cast<const unsigned char*>(compressed.data()),
+                          compressed.size());
     MeshoptBytes elements(count * stride);
     int failure = 0;
     if (meshopt.mode == "ATTRIBUTES") {
@@ -178,7 +180,8 @@ Result<MeshoptBytes> decode_view(const GltfDocument& document, const GltfBufferV
     }
     const auto bytes = compressed_bytes(document, meshopt);
     if (!bytes) return bytes.error();
-    if (auto status = check_header(meshopt, bytes->front()); !status) return status.error();
+    if (auto status = check_header(meshopt, std::to_integer<unsigned>(bytes->front())); !status)
+        return status.error();
     return decode_elements(meshopt, *bytes);
 }
 

@@ -70,6 +70,11 @@ void add_motion_parts(const GltfDocument& document, std::span<const GltfWorldNod
         ScenePart part;
         part.name = "skins";
         if (is_skinned(document, node)) parts.add(part, place);
+        if (is_skinned(document, node) && node.parent_from_node != glm::dmat4(1.0)) {
+            parts.add_left_out("transforms of skinned nodes",
+                               "have no effect on their meshes, which stand where the joints are",
+                               false, place);
+        }
         part.name = "morph targets";
         if (!morph_weights(document, placed.node).empty()) parts.add(part, place);
     }

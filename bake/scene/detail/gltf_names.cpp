@@ -13,8 +13,9 @@ namespace tetralight::detail {
 
 using nlohmann::json;
 
-std::vector<std::string> clean_names(json& document) {
+std::vector<ScenePart> clean_names(json& document) {
     ScenePart part;
+    part.use = PartUse::Approximated;
     part.name = "names";
     part.note = "have blanks here in place of line breaks and other control characters";
     PartList parts;
@@ -31,9 +32,7 @@ std::vector<std::string> clean_names(json& document) {
             parts.add(part, gltf_place(section.element, i, name->get<std::string>()));
         }
     }
-    std::vector<std::string> warnings;
-    for (const ScenePart& found : parts.parts()) warnings.push_back(part_warning(found));
-    return warnings;
+    return parts.parts();
 }
 
 }  // namespace tetralight::detail

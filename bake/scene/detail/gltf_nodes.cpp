@@ -144,6 +144,9 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
     if (is_finite_affine(source.parent_from_node) && is_finite_affine(placed.world_from_node)) {
         return placed;
     }
+    if (source.rotation == glm::dquat(0.0, 0.0, 0.0, 0.0)) {
+        return node_error(document, node, "rotation (0, 0, 0, 0) is no rotation");
+    }
     return node_error(document, node, "transform is not finite or not affine");
 }
 

@@ -125,9 +125,9 @@ Status GltfParts::embed_images(const std::string& path) {
     for (size_t i = 0; i < json["images"].size(); ++i) {
         const std::string uri = json["images"][i].value("uri", "");
         if (uri.empty() || is_data_uri(uri)) continue;
-        const auto name = relative_path_from_uri(uri);
-        if (!name) return in_element(name.error(), "images", i, "");
-        auto bytes = read_file(folder_of(path) + *name);
+        const auto file = path_from_uri(uri, path);
+        if (!file) return in_element(file.error(), "images", i, "");
+        auto bytes = read_file(*file);
         if (!bytes) return in_element(in_member(bytes.error(), ".uri"), "images", i, "");
         GltfJson& image = json["images"][i];
         const std::string type = image.value("mimeType", image_type(*bytes));

@@ -225,11 +225,12 @@ class Checker {
                                        const GltfRule& rule, std::string_view name) const {
         if (!is_right_container) return checked(false, values, name, "a list of indices");
         for (const auto& [key, value] : values.items()) {
-            const auto status = check_index(value, rule, str_cat(name, " ", key));
+            const bool is_array = values.is_array();
+            const auto status = check_index(
+                value, rule, is_array ? str_cat(name, "[", key, "]") : str_cat(name, " ", key));
             if (status) continue;
             Error error = status.error();
-            error.field =
-                "." + member_path(name) + (values.is_array() ? str_cat("[", key, "]") : "." + key);
+            error.field = "." + member_path(name) + (is_array ? str_cat("[", key, "]") : "." + key);
             return error;
         }
         return Ok{};

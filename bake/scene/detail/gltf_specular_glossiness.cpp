@@ -17,6 +17,10 @@ namespace {
 constexpr float kDielectric = 0.04f;
 constexpr float kSmallest = 1e-6f;
 
+/// Specular colours up to the first brightness are those of dielectrics, which count as 0.04; from
+/// the second on they count as they are.
+constexpr float kMostDielectric = 0.08f, kLeastMetal = 0.12f;
+
 constexpr const char* kDiffuseFactor =
     ".extensions.KHR_materials_pbrSpecularGlossiness.diffuseFactor";
 constexpr const char* kSpecularFactor =
@@ -35,11 +39,24 @@ float perceived_brightness(glm::vec3 color) {
 /// The metallic factor m of a grey material of base colour b:
 /// diffuse = 0.96 b (1 − m), specular = 0.04 (1 − m) + b m.
 float solve_metallic(float diffuse, float specular) {
-    if (specular < kDielectric) return 0.0f;
+    if (specular < kDielectric + kSmallest) return 0.0f;
     const float b = diffuse / (1.0f - kDielectric) + specular - 2.0f * kDielectric;
     const float c = kDielectric - specular;
     const float root = std::sqrt(std::max(b * b - 4.0f * kDielectric * c, 0.0f));
     return std::clamp((root - b) / (2.0f * kDielectric), 0.0f, 1.0f);
+}
+
+/// The specular colour with the brightness of dielectrics where it is one.
+///
+/// A black texel with a specular colour of 0.06 could be a dark metal as well. But beside a white
+/// texel of the same dielectric it may not be: of two texels with metallic factors of 0 and 1 the
+/// mean of base colour and factor reflects a quarter of the light, not half of it.
+glm::vec3 without_dark_metals(glm::vec3 specular) {
+    const float brightness = perceived_brightness(specular);
+    if (brightness <= kDielectric || brightness >= kLeastMetal) return specular;
+    const float t =
+        std::max((brightness - kMostDielectric) / (kLeastMetal - kMostDielectric), 0.0f);
+    return specular * (glm::mix(kDielectric, brightness, t) / brightness);
 }
 
 }  // namespace
@@ -53,6 +70,10 @@ MetallicColor metallic_color(glm::vec3 diffuse, glm::vec3 specular) {
         (specular - kDielectric * dielectric) / std::max(metallic, kSmallest);
     return {glm::clamp(glm::mix(of_diffuse, of_specular, metallic * metallic), 0.0f, 1.0f),
             metallic};
+}
+
+MetallicColor metallic_color_of_texel(glm::vec3 diffuse, glm::vec3 specular) {
+    return metallic_color(diffuse, without_dark_metals(specular));
 }
 
 /// A material with its textures decoded.
@@ -76,7 +97,8 @@ struct SpecularGlossinessReader::Source {
                                       const glm::vec4& specular_texel) const {
         const glm::vec3 mirrored = specular * glm::vec3(specular_texel);
         const float left = 1.0f - std::max({mirrored.r, mirrored.g, mirrored.b});
-        return metallic_color(left * glm::vec3(diffuse) * glm::vec3(diffuse_texel), mirrored);
+        return metallic_color_of_texel(left * glm::vec3(diffuse) * glm::vec3(diffuse_texel),
+                                       mirrored);
     }
 
     [[nodiscard]] float roughness(const glm::vec4& specular_texel) const {

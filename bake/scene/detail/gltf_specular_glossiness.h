@@ -25,6 +25,10 @@ struct MetallicColor {
 /// parts alone if `specular` is at least 0.04 (tests: `MetallicColor.*`).
 [[nodiscard]] MetallicColor metallic_color(glm::vec3 diffuse, glm::vec3 specular);
 
+/// The same of a texel that is filtered together with others: specular colours of a brightness up
+/// to 0.08 are those of dielectrics, and reflect as 0.04; from 0.12 on they are as they are.
+[[nodiscard]] MetallicColor metallic_color_of_texel(glm::vec3 diffuse, glm::vec3 specular);
+
 /// Converts materials of KHR_materials_pbrSpecularGlossiness to metallic-roughness materials.
 /// Materials that convert the same textures with the same factors share the converted ones.
 class SpecularGlossinessReader {

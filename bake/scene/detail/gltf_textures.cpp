@@ -57,7 +57,8 @@ Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
                          "read; `gltf-transform ktxdecompress` makes it a PNG image"};
     }
     if (source.image == kNoIndex) {
-        warnings.push_back(place + ": has no PNG, JPEG or WebP image; left out");
+        parts.add_left_out("textures without image", "have no PNG, JPEG or WebP image; left out",
+                           true, place);
         return kNoIndex;
     }
     auto texture = find_or_decode(source);

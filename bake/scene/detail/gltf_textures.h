@@ -3,11 +3,11 @@
 
 #include <array>
 #include <map>
-#include <string>
 #include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_images.h>
+#include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
@@ -19,13 +19,13 @@ class GltfTextureReader {
     GltfTextureReader(const GltfDocument& document, GltfImages& images)
         : document_(document), images_(images) {}
 
-    /// Index in `textures` of a glTF texture. Returns kNoIndex and adds a warning if only an
+    /// Index in `textures` of a glTF texture. Returns kNoIndex and adds to `parts` if only an
     /// extension that is not known names its image, and unsupported if it has no image but one of
     /// KHR_texture_basisu.
     [[nodiscard]] Result<uint32_t> read(uint32_t gltf_texture);
 
     std::vector<Texture> textures;
-    std::vector<std::string> warnings;
+    PartList parts;
 
   private:
     [[nodiscard]] Result<uint32_t> find_or_decode(const GltfTexture& source);

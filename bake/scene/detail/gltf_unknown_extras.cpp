@@ -35,19 +35,23 @@ struct KnownExtras {
 constexpr std::string_view kCommonWords[] = {"mode",  "shape",  "radius", "angle",
                                              "width", "height", "sky",    "portal"};
 
+const Names& light_extras() {
+    static const Names kNames{"mode",   "falloff", "shape", "indirect_multiplier",
+                              "radius", "angle",   "width", "height"};
+    return kNames;
+}
+
 const std::vector<KnownExtras>& known_extras() {
-    static const Names kOfLights{"mode",   "falloff", "shape", "indirect_multiplier",
-                                 "radius", "angle",   "width", "height"};
     static const std::vector<KnownExtras> kKnown = [] {
         Names of_nodes{"contribute_gi",     "walkable",     "in_reflections",    "receive_gi",
                        "lightmap_scale",    "stitch_seams", "light_probes",      "probe_anchor",
                        "light_probe_group", "dering",       "rendering_layers",  "probe_adjustment",
                        "reflection_probe",  "portal",       "lightmap_rectangle"};
-        of_nodes.insert(of_nodes.end(), kOfLights.begin(), kOfLights.end());
+        of_nodes.insert(of_nodes.end(), light_extras().begin(), light_extras().end());
         return std::vector<KnownExtras>{
             {"nodes", "nodes", "extras", of_nodes},
-            {"lights", "lights", "extras", kOfLights},
-            {"lights", "area lights", "extras", kOfLights},
+            {"lights", "lights", "extras", light_extras()},
+            {"lights", "area lights", "extras", light_extras()},
             {"materials", "materials", "extras", {"bake_emission"}},
             {"scenes", "scenes", "extras", {"sky"}},
             {"image-based lights", "image-based lights", "extras", {"sky"}},
@@ -70,14 +74,56 @@ bool contains(std::span<const std::string> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
+bool is_common_word(std::string_view word) {
+    return std::ranges::find(kCommonWords, word) != std::end(kCommonWords);
+}
+
 /// The kind of elements that have extras of this name, if they are others than `section`.
-const KnownExtras* other_place(std::string_view word, std::string_view section) {
-    if (std::ranges::find(kCommonWords, word) != std::end(kCommonWords)) return nullptr;
+const KnownExtras* other_place(std::string_view word, const json& value, std::string_view section) {
+    const bool is_sky = word == "sky" && value.is_object() && value.contains("radiance");
+    if (is_common_word(word) && !is_sky) return nullptr;
     for (const KnownExtras& known : known_extras()) {
         const bool is_whole = std::string_view(known.path) == "extras";
         if (is_whole && section != known.section && contains(known.names, word)) return &known;
     }
     return nullptr;
+}
+
+/// Extras of nodes that mean nothing without a light or a probe group.
+struct OwnedExtras {
+    const char* owner;
+    Names names;
+    bool (*has_owner)(const json& node);
+};
+
+bool has_light(const json& node) {
+    return find_json(node, "extensions/KHR_lights_punctual/light") != nullptr ||
+           find_json(node, "extensions/EXT_lights_area/light") != nullptr;
+}
+
+bool is_probe_group(const json& node) {
+    return boolean_at(node, "extras/light_probe_group").value_or(false);
+}
+
+const std::vector<OwnedExtras>& owned_extras() {
+    static const std::vector<OwnedExtras> kOwned{
+        {"nodes with a light", light_extras(), has_light},
+        {"probe groups", {"dering", "rendering_layers"}, is_probe_group}};
+    return kOwned;
+}
+
+/// What a node lacks that its extras of this name are about; null if it has all.
+const char* missing_owner(std::string_view word, const json& node) {
+    for (const OwnedExtras& owned : owned_extras()) {
+        if (contains(owned.names, word) && !owned.has_owner(node)) return owned.owner;
+    }
+    return nullptr;
+}
+
+/// The names of a node's extras that mean something.
+Names without_owned(Names names, const json& node) {
+    std::erase_if(names, [&](const std::string& name) { return missing_owner(name, node); });
+    return names;
 }
 
 void add_misspelt(const std::string& name, const std::string& near, const std::string& element,
@@ -92,28 +138,43 @@ void add_misspelt(const std::string& name, const std::string& near, const std::s
               element);
 }
 
-/// Extras of elements of any section.
-void add_extras(const GltfSection& section, const json& extras, const std::string& element,
-                PartList& parts) {
+void add_misplaced(const std::string& name, const char* place, const std::string& remedy,
+                   const std::string& element, PartList& parts) {
+    parts.add({PartUse::Ignored,
+               str_cat("extras \"", name, "\""),
+               0,
+               {},
+               str_cat("is read of ", place, " only"),
+               remedy,
+               true},
+              element);
+}
+
+/// The names that extras of an element of a section may have.
+Names names_of(std::string_view section, const json& element) {
     const auto known = std::ranges::find_if(known_extras(), [&](const KnownExtras& place) {
-        return std::string_view(place.section) == section.name &&
-               std::string_view(place.path) == "extras";
+        return section == place.section && std::string_view(place.path) == "extras";
     });
-    static const Names kNone;
-    const Names& names = known == known_extras().end() ? kNone : known->names;
-    for (const auto& [name, value] : extras.items()) {
+    if (known == known_extras().end()) return {};
+    return section == "nodes" ? without_owned(known->names, element) : known->names;
+}
+
+/// Extras of elements of any section; "" is the file itself.
+void add_extras(std::string_view section, const json& element, const std::string& place,
+                PartList& parts) {
+    const json* extras = find_json(element, "extras");
+    if (extras == nullptr || !extras->is_object()) return;
+    const Names names = names_of(section, element);
+    for (const auto& [name, value] : extras->items()) {
         if (contains(names, name)) continue;
-        if (const KnownExtras* other = other_place(name, section.name)) {
-            parts.add({PartUse::Ignored,
-                       str_cat("extras \"", name, "\""),
-                       0,
-                       {},
-                       str_cat("is read of ", other->place, " only"),
-                       str_cat("move it to the extras of ", other->place),
-                       true},
-                      element);
+        const char* owner = section == "nodes" ? missing_owner(name, element) : nullptr;
+        if (owner != nullptr && !is_common_word(name)) {
+            add_misplaced(name, owner, "", place, parts);
+        } else if (const KnownExtras* other = other_place(name, value, section)) {
+            add_misplaced(name, other->place, str_cat("move it to the extras of ", other->place),
+                          place, parts);
         } else if (const std::string near = meant_name(name, names); !near.empty()) {
-            add_misspelt(name, near, element, parts);
+            add_misspelt(name, near, place, parts);
         } else {
             parts.add({PartUse::Ignored,
                        "other extras",
@@ -122,7 +183,7 @@ void add_extras(const GltfSection& section, const json& extras, const std::strin
                        "belong to the program that wrote the file",
                        "",
                        false},
-                      str_cat(element, ": ", name));
+                      str_cat(place, ": ", name));
         }
     }
 }
@@ -148,11 +209,10 @@ void add_members(const KnownExtras& known, const json& object, const std::string
 }  // namespace
 
 void add_unknown_extras(const json& source, PartList& parts) {
+    add_extras("", source, "the file", parts);
     for_each_element(
         source, [&](const GltfSection& section, const json& element, const std::string& place) {
-            const json* extras = find_json(element, "extras");
-            if (extras == nullptr || !extras->is_object()) return;
-            add_extras(section, *extras, place, parts);
+            add_extras(section.name, element, place, parts);
             for (const KnownExtras& known : known_extras()) {
                 if (std::string_view(known.section) != section.name) continue;
                 if (std::string_view(known.path) == "extras") continue;
@@ -165,7 +225,7 @@ void add_unknown_extras(const json& source, PartList& parts) {
 }
 
 bool is_extras_name(std::string_view section, std::string_view name) {
-    if (std::ranges::find(kCommonWords, name) != std::end(kCommonWords)) return false;
+    if (section == "nodes" && is_common_word(name)) return false;
     return std::ranges::any_of(known_extras(), [&](const KnownExtras& known) {
         const bool is_whole = std::string_view(known.path) == "extras";
         return is_whole && section == known.section && contains(known.names, name);

@@ -27,18 +27,20 @@ bool defines(const GltfMembers& known, std::string_view name) {
 
 /// True for members that change nothing that is read.
 bool is_without_light(std::string_view name) {
-    constexpr std::string_view kNames[] = {"name", "copyright", "generator", "mimeType", "max",
-                                           "min",  "target",    "skeleton",  "minFilter"};
+    constexpr std::string_view kNames[] = {
+        "name",   "copyright", "generator", "mimeType",    "max",         "min",
+        "target", "skeleton",  "minFilter", "aspectRatio", "yfov",        "xmag",
+        "ymag",   "zfar",      "znear",     "perspective", "orthographic"};
     return std::ranges::find(kNames, name) != std::end(kNames);
 }
 
 /// True for words that many programs use, and that say nothing about where they belong.
 bool is_common(std::string_view name) {
     constexpr std::string_view kWords[] = {
-        "name",    "type",     "index",  "indices", "count",    "mode",   "scale",
-        "source",  "target",   "path",   "input",   "output",   "values", "min",
-        "max",     "weights",  "uri",    "node",    "nodes",    "color",  "range",
-        "version", "strength", "buffer", "sampler", "samplers", "camera"};
+        "name",    "type",     "index",  "indices", "count",  "mode",    "scale",    "source",
+        "target",  "path",     "input",  "output",  "values", "min",     "max",      "weights",
+        "uri",     "node",     "nodes",  "color",   "range",  "version", "strength", "buffer",
+        "sampler", "samplers", "camera", "size",    "rect",   "aspect"};
     return std::ranges::find(kWords, name) != std::end(kWords);
 }
 

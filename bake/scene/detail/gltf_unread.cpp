@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_extension_table.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
@@ -12,6 +13,7 @@
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_skin.h>
 #include <tetralight/bake/scene/detail/gltf_texture_coordinates.h>
+#include <tetralight/bake/scene/detail/meant_name.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -62,6 +64,15 @@ bool is_only_image(const std::string& name, const GltfSection& section, const js
     return name == "EXT_texture_avif" || name == "KHR_texture_basisu" || name == "MSFT_texture_dds";
 }
 
+/// True for extensions whose factor is 0, as it is by default.
+bool is_without_effect(const std::string& name, const json& element) {
+    const auto factor = [&](const char* member) {
+        return number_at(element, str_cat("extensions/", name, "/", member), 0.0);
+    };
+    if (name == "KHR_materials_volume") return factor("thicknessFactor") == 0.0;
+    return name == "KHR_materials_transmission" && factor("transmissionFactor") == 0.0;
+}
+
 /// The names of all extensions of a value and of what is in it, but not in its extras.
 void find_extensions(const json& value, std::set<std::string>& names) {
     if (!value.is_structured()) return;
@@ -88,6 +99,10 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
                 parts.add({PartUse::Ignored, name, 0, {}, std::string(no_sky), "", false}, place);
             } else if (is_only_image(name, section, element)) {
                 add_only_image(name, place, parts);
+            } else if (is_without_effect(name, element)) {
+                ScenePart part;
+                part.name = name;
+                parts.add(part, place);
             } else {
                 add_extension(name, place, parts);
             }
@@ -104,7 +119,20 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
         for (const auto& [name, extension] : extensions->items()) of_file.insert(name);
     }
     for (const std::string& name : of_file) {
-        if (!seen.contains(name)) add_extension(name, "the file", parts);
+        if (seen.contains(name)) continue;
+        if (name == "EXT_lights_image_based" &&
+            !array_at(source, "extensions/EXT_lights_image_based/lights").empty()) {
+            parts.add({PartUse::Ignored,
+                       name,
+                       0,
+                       {},
+                       "the scene names none of its lights",
+                       "name the index of one in the extensions of the scene",
+                       !document.sky_radiance},
+                      "the file");
+        } else {
+            add_extension(name, "the file", parts);
+        }
     }
 }
 
@@ -113,13 +141,18 @@ bool begins_with_any(const std::string& name, std::initializer_list<std::string_
                                [&](std::string_view begin) { return name.starts_with(begin); });
 }
 
-/// Attributes of a primitive that are not read.
-void add_attributes(const GltfPrimitive& primitive, const std::string& place, PartList& parts) {
-    static constexpr std::string_view kRead[] = {"POSITION",   "NORMAL",   "TANGENT",  "TEXCOORD_0",
+/// The attributes that are read.
+const std::vector<std::string>& known_attributes() {
+    static const std::vector<std::string> kNames{"POSITION",   "NORMAL",   "TANGENT",  "TEXCOORD_0",
                                                  "TEXCOORD_1", "COLOR_0",  "JOINTS_0", "WEIGHTS_0",
                                                  "JOINTS_1",   "WEIGHTS_1"};
+    return kNames;
+}
+
+/// Attributes of a primitive that are not read.
+void add_attributes(const GltfPrimitive& primitive, const std::string& place, PartList& parts) {
     for (const auto& [name, accessor] : primitive.attributes) {
-        if (std::ranges::find(kRead, name) != std::end(kRead)) continue;
+        if (std::ranges::find(known_attributes(), name) != known_attributes().end()) continue;
         ScenePart part{PartUse::Ignored, "attribute " + name, 0, {}, "", "", false};
         if (begins_with_any(name, {"COLOR_"})) part.note = "only COLOR_0 counts";
         if (begins_with_any(name, {"TEXCOORD_"})) part.note = "only sets 0 and 1 are read";
@@ -128,7 +161,12 @@ void add_attributes(const GltfPrimitive& primitive, const std::string& place, Pa
             part.changes_light = true;
         }
         if (name.starts_with('_')) part.note = "belongs to the program that wrote the file";
-        if (part.note.empty()) part.note = "is not an attribute of glTF 2.0";
+        if (part.note.empty()) {
+            part.note = "is not an attribute of glTF 2.0";
+            const std::string near = meant_name(name, known_attributes());
+            if (!near.empty()) part.remedy = str_cat("did you mean \"", near, "\"?");
+            part.changes_light = !near.empty();
+        }
         parts.add(part, place);
     }
     for (const GltfAttributes& target : primitive.targets) {
@@ -238,10 +276,14 @@ void add_cameras(const GltfDocument& document, const json& source, PartList& par
         if (camera.fov_y_radians || camera.half_height) continue;
         const json& element = array_at(source, "cameras")[i];
         const std::string type = string_at(element, "type");
-        const std::string note =
-            type == "orthographic"
-                ? str_cat("ymag ", number_at(element, "orthographic/ymag", 0.0), " is not above 0")
-                : str_cat("type \"", type, "\" is neither perspective nor orthographic");
+        std::string note = str_cat("type \"", type, "\" is neither perspective nor orthographic");
+        if (type == "orthographic") {
+            note =
+                str_cat("ymag ", number_at(element, "orthographic/ymag", 0.0), " is not above 0");
+        } else if (type == "perspective") {
+            note = str_cat("yfov ", number_at(element, "perspective/yfov", 0.0),
+                           " is not between 0 and π radians");
+        }
         parts.add({PartUse::Ignored, "cameras", 0, {}, note, "", false},
                   gltf_place("camera", i, camera.name));
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
@@ -35,6 +36,31 @@ bool has_parent_step(std::string_view path) {
     return false;
 }
 
+/// Folder of a file, to be joined with a name: "" or ends in '/'.
+std::string folder_of(const std::string& path) {
+    const size_t slash = path.rfind('/');
+    return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
+}
+
+/// True if a file lies in the folder of `scene` or below. Both are paths without links.
+bool is_beside(const std::filesystem::path& file, const std::filesystem::path& scene) {
+    const std::filesystem::path folder = scene.parent_path();
+    return std::ranges::mismatch(folder, file).in1 == folder.end();
+}
+
+/// True if a file is read by way of a link from the scene's folder to another folder. Links to
+/// files beside the file to which the scene is a link are how some build systems lay out folders.
+bool is_link_outside(const std::string& path, const std::string& scene_path) {
+    std::error_code error;
+    const auto file = std::filesystem::canonical(path, error);
+    if (error) return false;  // what opens the file says that there is none
+    const auto scene = std::filesystem::canonical(scene_path, error);
+    if (!error && is_beside(file, scene)) return false;
+    const std::string folder = folder_of(scene_path);
+    const auto open_folder = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+    return error || !is_beside(file, open_folder / "scene");
+}
+
 }  // namespace
 
 bool is_data_uri(std::string_view uri) {
@@ -52,9 +78,16 @@ Result<std::string> relative_path_from_uri(std::string_view uri) {
     return path;
 }
 
-std::string folder_of(const std::string& path) {
-    const size_t slash = path.rfind('/');
-    return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
+Result<std::string> path_from_uri(std::string_view uri, const std::string& scene_path) {
+    const auto relative = relative_path_from_uri(uri);
+    if (!relative) return relative.error();
+    std::string path = folder_of(scene_path) + *relative;
+    if (is_link_outside(path, scene_path)) {
+        return Error{ErrorCode::Unsupported, ".uri", quoted_value(uri),
+                     str_cat("uri \"", quoted_value(uri),
+                             "\" is a symbolic link to a file outside of the scene's folder")};
+    }
+    return path;
 }
 
 }  // namespace tetralight::detail

@@ -15,7 +15,10 @@ namespace tetralight::detail {
 /// files outside of its folder.
 [[nodiscard]] Result<std::string> relative_path_from_uri(std::string_view uri);
 
-/// Folder of a file, to be joined with a name: "" or ends in '/'.
-[[nodiscard]] std::string folder_of(const std::string& path);
+/// Path of the file that a relative URI of a scene names. Returns the errors of
+/// relative_path_from_uri(), and unsupported for symbolic links to files outside of the scene's
+/// folder and of the folder of the file to which the scene itself is a link.
+[[nodiscard]] Result<std::string> path_from_uri(std::string_view uri,
+                                                const std::string& scene_path);
 
 }  // namespace tetralight::detail

@@ -20,6 +20,16 @@ void PartList::add(const ScenePart& part, const std::string& element) {
     if (added.elements.size() < ScenePart::kMaxElements) added.elements.push_back(element);
 }
 
+void PartList::add_left_out(const std::string& name, const std::string& note, bool changes_light,
+                            const std::string& element) {
+    ScenePart part;
+    part.use = PartUse::Ignored;
+    part.name = name;
+    part.note = note;
+    part.changes_light = changes_light;
+    add(part, element);
+}
+
 void PartList::add_count(ScenePart part, uint64_t count) {
     if (count > 0) row(part).count += count;
 }

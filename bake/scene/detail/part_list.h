@@ -16,6 +16,10 @@ class PartList {
     /// `part` has no count and no elements of its own.
     void add(const ScenePart& part, const std::string& element);
 
+    /// Adds an element that is left out: `note` says why. `changes_light` as ScenePart.
+    void add_left_out(const std::string& name, const std::string& note, bool changes_light,
+                      const std::string& element);
+
     /// Adds many of a kind that have no names.
     void add_count(ScenePart part, uint64_t count);
 

@@ -64,7 +64,8 @@ void add_surfaces(const Scene& scene, PartList& parts) {
         parts.add(read_part("materials that emit light"), shown_name(scene.materials[i].name, i));
     }
     const auto size_of = [](const Texture& texture) {
-        return str_cat("\"", texture.name, "\" ", texture.image.width, " x ", texture.image.height);
+        const std::string name = texture.name.empty() ? "" : str_cat("\"", texture.name, "\" ");
+        return str_cat(name, texture.image.width, " x ", texture.image.height);
     };
     add_named("textures", scene.textures, size_of, parts);
     ScenePart normal_maps = read_part("normal maps");

@@ -69,8 +69,8 @@ TEST(GltfAreaLights, DefaultsAreASquareOfAMetreAndWhite) {
     EXPECT_EQ(light.intensity, glm::vec3(1000.0f));
     ASSERT_EQ(scene->warnings.size(), 1u);
     EXPECT_TRUE(scene->warnings[0].ends_with(
-        "scene.glb: area light 0 \"panel\": has no intensity, which stands for 1000 cd/m² in "
-        "EXT_lights_area, and for 1 in files of Babylon.js"))
+        "scene.glb: area lights without intensity (area light 0 \"panel\"): none stands for "
+        "1000 cd/m² in EXT_lights_area, and for 1 in files of Babylon.js; give them an intensity"))
         << scene->warnings[0];
 }
 
@@ -185,7 +185,8 @@ TEST(GltfAreaLights, UnknownTypesAreLeftOutWithAWarning) {
     EXPECT_TRUE(scene->lights.empty());
     ASSERT_EQ(scene->warnings.size(), 1u);
     EXPECT_TRUE(scene->warnings[0].ends_with(
-        "scene.glb: area light 0 \"globe\": type \"sphere\" is not known; left out"));
+        "scene.glb: lights of unknown type (area light 0 \"globe\"): type \"sphere\" is not "
+        "known; left out"));
 }
 
 TEST(GltfAreaLights, ThoseScaledToNothingAreLeftOutWithAWarning) {
@@ -195,8 +196,7 @@ TEST(GltfAreaLights, ThoseScaledToNothingAreLeftOutWithAWarning) {
         EXPECT_TRUE(scene->lights.empty());
         ASSERT_EQ(scene->warnings.size(), 1u);
         EXPECT_TRUE(scene->warnings[0].ends_with(
-            "scene.glb: node 0 \"lamp\": is scaled to 0, so that its light has no direction; "
-            "left out"));
+            "scene.glb: lights scaled to 0 (node 0 \"lamp\"): have no direction; left out"));
     }
 }
 

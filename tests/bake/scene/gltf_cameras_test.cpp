@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <tetralight/base/str_cat.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -61,10 +63,25 @@ TEST(GltfCameras, AreLeftOutWhereTheScaleIs0) {
     const auto scene = gltf.read();
     ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_TRUE(scene->cameras.empty());
-    ASSERT_EQ(scene->warnings.size(), 1u);
-    EXPECT_TRUE(scene->warnings[0].ends_with(
-        "scene.glb: node 0 \"eye\": is scaled to 0, so that its camera looks nowhere; left out"))
-        << scene->warnings[0];
+    const auto part = std::ranges::find(scene->parts, "cameras scaled to 0", &ScenePart::name);
+    ASSERT_NE(part, scene->parts.end());
+    EXPECT_EQ(part->use, PartUse::Ignored);
+    EXPECT_EQ(part->elements, std::vector<std::string>{"node 0 \"eye\""});
+    EXPECT_FALSE(part->changes_light);
+}
+
+TEST(GltfCameras, AreLeftOutWithoutAFieldOfView) {
+    for (const double fov_y : {0.0, -1.0, 5.0}) {
+        GltfBuilder gltf;
+        gltf.add_root({{"camera", gltf.add("cameras", perspective(fov_y))}});
+        const auto scene = gltf.read();
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        EXPECT_TRUE(scene->cameras.empty());
+        const auto part = std::ranges::find(scene->parts, PartUse::Ignored, &ScenePart::use);
+        ASSERT_NE(part, scene->parts.end());
+        EXPECT_EQ(part->note, str_cat("yfov ", fov_y, " is not between 0 and π radians"));
+        EXPECT_EQ(part->elements, std::vector<std::string>{"camera 0 \"lens\""});
+    }
 }
 
 TEST(GltfCameras, LoseTheScaleOfTheirNode) {

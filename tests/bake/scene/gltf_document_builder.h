@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -14,7 +15,7 @@ template <class T>
 uint32_t add_elements(detail::GltfDocument& document, const std::vector<T>& values,
                       uint32_t component_type, uint32_t component_count) {
     const auto buffer = static_cast<uint32_t>(document.buffers.size());
-    std::vector<unsigned char> bytes(values.size() * sizeof(T));
+    std::vector<std::byte> bytes(values.size() * sizeof(T));
     std::memcpy(bytes.data(), values.data(), bytes.size());
     document.buffer_views.push_back({buffer, 0, bytes.size(), 0, std::nullopt});
     document.buffers.push_back(std::move(bytes));

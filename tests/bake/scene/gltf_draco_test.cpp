@@ -39,7 +39,7 @@ std::vector<Triangle> sheet(int n) {
 }
 
 struct Compressed {
-    std::vector<unsigned char> bytes;
+    std::vector<std::byte> bytes;
     uint64_t point_count = 0;
 };
 
@@ -70,7 +70,8 @@ Compressed compress(const std::vector<Triangle>& triangles, Method method) {
                                                            : draco::MESH_EDGEBREAKER_ENCODING);
     draco::EncoderBuffer buffer;
     EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
-    return {{buffer.data(), buffer.data() + buffer.size()}, mesh->num_points()};
+    const auto bytes = std::as_bytes(std::span(buffer.data(), buffer.size()));
+    return {{bytes.begin(), bytes.end()}, mesh->num_points()};
 }
 
 /// A mesh whose accessors 0 to 2 (positions, colours, indices) have no data but Draco's.
@@ -169,7 +170,7 @@ TEST(GltfDraco, AttributesThatAreNotCompressedStay) {
     detail::GltfPrimitive& primitive = document.meshes[0].primitives[0];
     primitive.draco->attributes.erase("COLOR_0");
     const uint64_t count = document.accessors[1].count;
-    document.buffers.emplace_back(count * 4, static_cast<unsigned char>(255));
+    document.buffers.emplace_back(count * 4, std::byte{255});
     document.buffer_views.push_back({1, 0, count * 4, 0, std::nullopt});
     document.accessors[1].buffer_view = 1;
     ASSERT_TRUE(detail::decode_draco(document));
@@ -228,7 +229,7 @@ TEST(GltfDraco, ChangedBytesNeverGiveIndicesThatAreOutOfRange) {
     const Document whole = small_document();
     for (size_t i = 11; i < whole.buffers[0].size(); ++i) {
         Document document = whole;
-        document.buffers[0][i] ^= 0x55;
+        document.buffers[0][i] ^= std::byte{0x55};
         if (!detail::decode_draco(document)) continue;
         const auto indices = detail::read_indices(document, 2);
         ASSERT_TRUE(indices);
@@ -291,14 +292,15 @@ INSTANTIATE_TEST_SUITE_P(
         DracoRejection{"IndexType",
                        [](Document& d, Primitive&) { d.accessors[2].component_type = 5122; },
                        ".indices", "the indices do not fit component type 5122"},
-        DracoRejection{"NoDraco", [](Document& d, Primitive&) { d.buffers[0][0] = 'X'; }, kData,
-                       "the data do not decode (not a mesh of Draco)"}),
+        DracoRejection{"NoDraco", [](Document& d, Primitive&) { d.buffers[0][0] = std::byte{'X'}; },
+                       kData, "the data do not decode (not a mesh of Draco)"}),
     [](const auto& param_info) { return std::string(param_info.param.label); });
 
 TEST(GltfDraco, AHugeMeshIsRejectedByItsHeader) {
     Document document = document_of(compress(sheet(2), Method::Sequential), 8);
-    const std::vector<unsigned char> huge = {0xff, 0xff, 0xff, 0xff, 0x04};  // 1342177279 faces
-    std::vector<unsigned char>& bytes = document.buffers[0];
+    const std::array huge = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff},
+                             std::byte{0x04}};  // 1342177279 faces
+    std::vector<std::byte>& bytes = document.buffers[0];
     constexpr size_t kHeader = 11;
     bytes.erase(bytes.begin() + kHeader);
     bytes.insert(bytes.begin() + kHeader, huge.begin(), huge.end());

@@ -285,9 +285,10 @@ GltfBuilder coefficient_scene(const Json& coefficients, const Json& members = {}
 TEST(GltfImageBasedLight, WithoutImagesTheSkyIsThatOfTheCoefficients) {
     const Scene scene = read(coefficient_scene(smooth_coefficients()));
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("image-based light 0 \"studio\": the sky is that of its "
-                                     "irradianceCoefficients, without detail: it has no images"),
-              std::string::npos)
+    EXPECT_NE(
+        scene.warnings[0].find("image-based sky (image-based light 0 \"studio\"): is that of "
+                               "the irradianceCoefficients, without detail: it has no images"),
+        std::string::npos)
         << scene.warnings[0];
     for (const glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
                                  glm::vec3(0, 0, 1), glm::vec3(1, -1, 2)}) {

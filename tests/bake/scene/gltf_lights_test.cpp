@@ -180,7 +180,8 @@ TEST(GltfLights, UnknownTypeIsLeftOutWithAWarning) {
     EXPECT_TRUE(scene->lights.empty());
     ASSERT_EQ(scene->warnings.size(), 1u);
     EXPECT_TRUE(scene->warnings[0].ends_with(
-        "scene.glb: light 0 \"panel\": type \"area\" is not known; left out"));
+        "scene.glb: lights of unknown type (light 0 \"panel\"): type \"area\" is not known; "
+        "left out"));
 }
 
 TEST(GltfLights, PointLightNeedsNoDirection) {
@@ -205,9 +206,8 @@ TEST(GltfLights, AreLeftOutWhereAScaleOf0LeavesThemNoDirection) {
         ASSERT_TRUE(scene) << error_text(scene.error());
         EXPECT_EQ(scene->lights.size(), 0u);
         ASSERT_EQ(scene->warnings.size(), 1u);
-        EXPECT_TRUE(scene->warnings[0].ends_with(
-            str_cat("scene.glb: node 0 \"lamp\": is scaled to 0, so that its light has no ",
-                    c.missing, "; left out")))
+        EXPECT_TRUE(scene->warnings[0].ends_with(str_cat(
+            "scene.glb: lights scaled to 0 (node 0 \"lamp\"): have no ", c.missing, "; left out")))
             << scene->warnings[0];
     }
 }

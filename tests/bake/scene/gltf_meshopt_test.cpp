@@ -15,13 +15,19 @@
 namespace tetralight {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using Bytes = std::vector<std::byte>;
 
 const std::vector<glm::vec3> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.25f}};
 
+/// For the encoders, which have their own type of bytes.
+unsigned char* first_of(Bytes& bytes) {
+    return reinterpret_cast<unsigned char*>(bytes.data());
+}
+
 Bytes encode_vertices(const void* vertices, size_t count, size_t stride) {
     Bytes bytes(meshopt_encodeVertexBufferBound(count, stride));
-    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices, count, stride));
+    bytes.resize(
+        meshopt_encodeVertexBuffer(first_of(bytes), bytes.size(), vertices, count, stride));
     return bytes;
 }
 
@@ -29,7 +35,7 @@ Bytes encode_triangles(const std::vector<uint32_t>& indices) {
     meshopt_encodeIndexVersion(1);
     Bytes bytes(meshopt_encodeIndexBufferBound(indices.size(), 100));
     bytes.resize(
-        meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), indices.size()));
+        meshopt_encodeIndexBuffer(first_of(bytes), bytes.size(), indices.data(), indices.size()));
     return bytes;
 }
 
@@ -37,7 +43,7 @@ Bytes encode_sequence(const std::vector<uint32_t>& indices) {
     meshopt_encodeIndexVersion(1);
     Bytes bytes(meshopt_encodeIndexSequenceBound(indices.size(), 100));
     bytes.resize(
-        meshopt_encodeIndexSequence(bytes.data(), bytes.size(), indices.data(), indices.size()));
+        meshopt_encodeIndexSequence(first_of(bytes), bytes.size(), indices.data(), indices.size()));
     return bytes;
 }
 
@@ -46,7 +52,7 @@ Bytes encode_sequence(const std::vector<uint32_t>& indices) {
 detail::GltfDocument compressed(const Bytes& bytes, uint64_t count, uint64_t stride,
                                 const std::string& mode, const std::string& filter = "NONE") {
     detail::GltfDocument document;
-    document.buffers = {{1, 2, 3}, {}};
+    document.buffers = {Bytes(3, std::byte{7}), {}};
     document.buffers[0].insert(document.buffers[0].end(), bytes.begin(), bytes.end());
     document.buffer_views = {{1, 0, count * stride, 0, std::nullopt}};
     document.buffer_views[0].meshopt =
@@ -264,9 +270,10 @@ INSTANTIATE_TEST_SUITE_P(
                          "byteLength",
                          "bytes 4000000000 to 4000000090 are outside of buffer 1 (0 bytes)"},
         MeshoptRejection{"BytesOfAnotherMode",
-                         [](Document& d, Meshopt&) { d.buffers[0][3] = 0xe1; }, "mode",
+                         [](Document& d, Meshopt&) { d.buffers[0][3] = std::byte{0xe1}; }, "mode",
                          "the bytes are not of mode \"ATTRIBUTES\""},
-        MeshoptRejection{"Version", [](Document& d, Meshopt&) { d.buffers[0][3] = 0xa1; }, "mode",
+        MeshoptRejection{"Version",
+                         [](Document& d, Meshopt&) { d.buffers[0][3] = std::byte{0xa1}; }, "mode",
                          "the bytes are of version 1 of the encoding, versions up to 0 are read; "
                          "export the file again with version 0 (gltfpack -c)"},
         MeshoptRejection{"Length", [](Document&, Meshopt& m) { m.byte_length = 40; }, "byteLength",
@@ -275,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(GltfMeshopt, ALaterVersionIsUnsupported) {
     detail::GltfDocument document = compressed_corners();
-    document.buffers[0][3] = 0xa1;
+    document.buffers[0][3] = std::byte{0xa1};
     EXPECT_EQ(detail::decode_meshopt(document).error().code, ErrorCode::Unsupported);
 }
 

@@ -101,6 +101,11 @@ TEST(GltfMotionParts, CountsNodesThatSkinsAndMorphTargetsDeform) {
     gltf.add("skins", {{"joints", {0}}});
     gltf.json["nodes"][0]["skin"] = 0;
     EXPECT_EQ(part(read(gltf), "skins", PartUse::Read).elements, Names{"node 0 \"door\""});
+    const char* kMoved = "transforms of skinned nodes";
+    EXPECT_EQ(part(read(gltf), kMoved, PartUse::Ignored).count, 0u);
+    gltf.json["nodes"][0]["translation"] = {50, 0, 0};
+    EXPECT_EQ(part(read(gltf), kMoved, PartUse::Ignored).elements, Names{"node 0 \"door\""});
+    EXPECT_TRUE(read(gltf).warnings.empty());
 }
 
 }  // namespace

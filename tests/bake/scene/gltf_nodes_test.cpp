@@ -222,7 +222,7 @@ TEST(GltfNodes, RejectsARootThatStandsTwice) {
 
 TEST(GltfNodes, RejectsTransformsThatAreNotFiniteOrAffine) {
     const Json projective = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const Json bad_nodes[] = {{{"rotation", {0, 0, 0, 0}}}, {{"matrix", projective}}};
+    const Json bad_nodes[] = {{{"matrix", projective}}};
     for (const Json& node : bad_nodes) {
         GltfBuilder gltf;
         gltf.add_root(node);
@@ -237,13 +237,19 @@ TEST(GltfNodes, RejectsAHierarchyThatOverflows) {
     EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"far\": transform is not finite or not affine");
 }
 
+TEST(GltfNodes, RejectsARotationOfLength0) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "door"}, {"rotation", {0, 0, 0, 0}}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"door\": rotation (0, 0, 0, 0) is no rotation");
+}
+
 TEST(GltfNodes, SkinsAreLeftOutWithAWarning) {
     GltfBuilder gltf;
     gltf.json["skins"] = {{{"joints", {0}}}};
     gltf.add_root({{"name", "person"}, {"mesh", gltf.add_triangle()}, {"skin", 0}});
     const Scene scene = scene_of(gltf);
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("node 0 \"person\": skin is left out"), std::string::npos);
+    EXPECT_NE(scene.warnings[0].find("node 0 \"person\"): are left out"), std::string::npos);
 }
 
 TEST(GltfNodes, ProxyVolumesAreInheritedUntilAChildDeclines) {

@@ -139,6 +139,27 @@ TEST(GltfRules, NamesTheElementAndTheValue) {
     EXPECT_EQ(gltf.error(), "scene.glb: node 1 \"wall\": mesh 9999 is out of range (1 meshes)");
 }
 
+TEST(GltfRules, NamesThePlaceInAList) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "wall"}, {"children", {12345}}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"wall\": children[0] 12345 is out of range (1 nodes)");
+}
+
+TEST(GltfRules, FilesOfOtherKindsAreToldByWhatTheyBeginWith) {
+    const TempFolder folder;
+    const auto message = [&](const std::string& text) {
+        const auto scene = read_gltf(folder.write("scene.gltf", text));
+        return scene ? "(no error)" : error_text(scene.error()).substr(folder.path("").size());
+    };
+    EXPECT_EQ(message(""), "scene.gltf: is not glTF: it is empty");
+    EXPECT_EQ(message(" \n"), "scene.gltf: is not glTF: it is empty");
+    EXPECT_EQ(message("version https://git-lfs.github.com/spec/v1\noid"),
+              "scene.gltf: is not glTF: it begins with \"version https://git-lfs.\"");
+    // Two blanks before, and a mark of byte order.
+    EXPECT_EQ(message("\xef\xbb\xbf  {\"asset\": {\"version\": \"2.0\"}}"), "(no error)");
+}
+
 TEST(GltfRules, ExtrasMayBeAnything) {
     for (const Json& extras : {Json("text"), Json(1), Json::array({1, 2}), Json({{"mode", 5}})}) {
         GltfBuilder gltf = linked_scene();

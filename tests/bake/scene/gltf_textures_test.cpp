@@ -126,9 +126,11 @@ TEST(GltfTextures, BasisUniversalIsReadByItsFallbackOrRefused) {
               "it a PNG image");
 }
 
-TEST(GltfTextures, WebPIsReadWhereThereIsNoOtherImage) {
+TEST(GltfTextures, TheWebPImageOfATextureIsRead) {
     GltfBuilder gltf = with_embedded_png();
     gltf.json["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 0}};
+    gltf.json["textures"][0]["source"] = gltf.add("images", {{"uri", "missing.png"}});
+    EXPECT_EQ(scene_of(gltf).textures.size(), 1u);
     gltf.json["textures"][0].erase("source");
     EXPECT_EQ(scene_of(gltf).textures.size(), 1u);
 }
@@ -182,7 +184,8 @@ TEST(GltfTextures, TextureWithoutSourceIsLeftOutWithAWarning) {
     const Scene scene = scene_of(gltf);
     EXPECT_EQ(scene.materials[0].base_color_texture.texture, kNoIndex);
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(scene.warnings[0].ends_with("texture 0: has no PNG, JPEG or WebP image; left out"));
+    EXPECT_TRUE(scene.warnings[0].ends_with(
+        "textures without image (texture 0): have no PNG, JPEG or WebP image; left out"));
 }
 
 TEST(GltfTextures, TransformMovesTurnsAndScales) {

@@ -121,6 +121,37 @@ INSTANTIATE_TEST_SUITE_P(
                {{"contribute_gi", false}},
                "extras \"contribute_gi\" (mesh 0): is read of nodes only; move it to the extras "
                "of nodes"},
+        Unread{"OfTheFile",
+               "/extras",
+               {{"sky", {{"radiance", {1, 1, 1}}}}},
+               "extras \"sky\" (the file): is read of scenes only; move it to the extras of "
+               "scenes"},
+        Unread{"SkyOfANode",
+               "/nodes/0/extras",
+               {{"sky", {{"radiance", {1, 1, 1}}}}},
+               "extras \"sky\" (node 0 \"wall\"): is read of scenes only; move it to the extras "
+               "of scenes"},
+        Unread{"OfALight",
+               "/nodes/0/extras",
+               {{"indirect_multiplier", 2}},
+               "extras \"indirect_multiplier\" (node 0 \"wall\"): is read of nodes with a light "
+               "only"},
+        Unread{"OfAProbeGroup",
+               "/nodes/0/extras",
+               {{"dering", true}},
+               "extras \"dering\" (node 0 \"wall\"): is read of probe groups only"},
+        Unread{"Attribute", "/meshes/0/primitives/0/attributes/TEXCORD_0", 0,
+               "attribute TEXCORD_0 (mesh 0): is not an attribute of glTF 2.0; did you mean "
+               "\"TEXCOORD_0\"?"},
+        Unread{"MemberOfAnExtension",
+               "/materials/0/extensions",
+               {{"KHR_materials_pbrSpecularGlossiness", {{"difuseFactor", {1, 1, 1, 1}}}}},
+               "member \"difuseFactor\" of KHR_materials_pbrSpecularGlossiness (material 0 "
+               "\"paint\"): is no member that glTF 2.0 defines; did you mean \"diffuseFactor\"?"},
+        Unread{"ExtrasOfALightBesideThem", "/extensions/KHR_lights_punctual/lights/0/radius", 0.5,
+               "member \"radius\" of lights (light 0 \"bulb\"): is read of \"extras\" only; move "
+               "it into "
+               "\"extras\""},
         Unread{"SkyMember",
                "/scenes/0/extras",
                {{"sky", {{"radiance", {1, 1, 1}}, {"rotation", 90}}}},
@@ -139,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                "Tetralight reads; did you mean \"forbid\"?"},
         Unread{"Volume",
                "/materials/0/extensions",
-               {{"KHR_materials_volume", {{"attenuationDistance", 1}}}},
+               {{"KHR_materials_volume", {{"thicknessFactor", 1}}}},
                "KHR_materials_volume (material 0 \"paint\"): light that shines through is not "
                "absorbed"},
         Unread{"UnknownExtension",
@@ -299,6 +330,47 @@ TEST(SceneParts, AnotherSceneIsReadByNameOrIndex) {
               "scene.glb: has no scene \"2\"; it has 0 \"hall\", 1 \"0\"");
 }
 
+TEST(SceneParts, ExtensionsWithAFactorOf0HaveNoEffect) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["materials"][0]["extensions"] = {
+        {"KHR_materials_volume", {{"attenuationDistance", 1}}},
+        {"KHR_materials_transmission", {{"transmissionFactor", 0}}}};
+    const Scene scene = read(gltf);
+    EXPECT_TRUE(warnings(scene).empty());
+    for (const char* name : {"KHR_materials_volume", "KHR_materials_transmission"})
+        EXPECT_EQ(part(scene, name).use, PartUse::Read) << name;
+}
+
+TEST(SceneParts, ScenesOfOneNameAreToldApartByTheirIndices) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["scenes"][0]["name"] = "day";
+    gltf.json["scenes"][1] = {{"name", "day"}, {"nodes", {1}}};
+    EXPECT_EQ(gltf.error({.scene = "day"}),
+              "scene.glb: has 2 scenes \"day\", which a number tells apart: it has 0 \"day\", 1 "
+              "\"day\"");
+    EXPECT_EQ(read(gltf, {.scene = "1"}).instances.size(), 0u);
+}
+
+TEST(SceneParts, ExtrasThatOtherProgramsMayHaveAreNoMistakes) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["nodes"][0]["extras"] = {{"weight", 80}, {"model", "x"}, {"angles", {1, 2}},
+                                       {"shapes", 3},  {"mode", 1},    {"sky", 0.5}};
+    const Scene scene = read(gltf);
+    EXPECT_EQ(warnings(scene), std::vector<std::string>{});
+    EXPECT_EQ(part(scene, "other extras").count, 6u);
+}
+
+TEST(SceneParts, AnImageBasedLightThatTheSceneDoesNotNameIsNoSky) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["extensionsUsed"] = {"EXT_lights_image_based"};
+    gltf.json["extensions"]["EXT_lights_image_based"] = {
+        {"lights", {{{"specularImages", Json::array()}, {"specularImageSize", 4}}}}};
+    EXPECT_EQ(warnings(read(gltf)),
+              std::vector<std::string>{
+                  "EXT_lights_image_based (the file): the scene names none of its lights; name the "
+                  "index of one in the extensions of the scene"});
+}
+
 TEST(SceneParts, ControlCharactersOfNamesAreBlanks) {
     GltfBuilder gltf = plain_scene();
     gltf.json["nodes"][1]["name"] = "tab\tnew\nline.001";
@@ -407,7 +479,11 @@ TEST(SceneParts, DaylightBesideEmissionIsNoMistake) {
 TEST(SceneParts, LumensOfWattsMatterBesideEmissionOrASky) {
     GltfBuilder gltf = with_lights({{"point", standard_candela(1000.0)}});
     gltf.json["materials"][0].erase("emissiveFactor");
-    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+    const Scene alone = read(gltf);
+    EXPECT_EQ(warnings(alone).size(), 0u);
+    EXPECT_EQ(part(alone, "units of lights").note,
+              "the light is 54351.414 candela, as exporters write it that count a watt as 683 "
+              "lumens");
     const auto beside_sky = warnings(read(gltf, {.has_other_sky = true}));
     ASSERT_EQ(beside_sky.size(), 1u);
     EXPECT_NE(beside_sky[0].find("beside a sky,"), std::string::npos) << beside_sky[0];
@@ -418,20 +494,26 @@ TEST(SceneParts, LumensOfWattsMatterBesideEmissionOrASky) {
 }
 
 TEST(SceneParts, CentimetresAreNoticed) {
-    const auto doors = [](double scale) {
+    const auto doors = [](double scale, const char* light_type) {
         GltfBuilder gltf;
         const size_t mesh = gltf.add_mesh({0, 0, 0, 90, 0, 0, 90, 200, 0});
         for (int i = 0; i < 4; ++i) {
             gltf.add_root({{"mesh", mesh}, {"scale", {scale, scale, scale}}});
         }
+        const size_t light = gltf.add_light({{"type", light_type}});
+        gltf.add_root({{"extensions", GltfBuilder::light_extension(light)}});
         return gltf;
     };
-    EXPECT_EQ(warnings(read(doors(1.0))),
+    EXPECT_EQ(warnings(read(doors(1.0, "point"))),
               std::vector<std::string>{
-                  "units of length (the scene): three of four objects are larger than 219 m; "
-                  "lights fade over distance in metres; if the unit is a centimetre, scale the "
+                  "units of length (the scene): the boxes of three of four objects have diagonals "
+                  "of more than 219 m; metres are assumed; if the unit is a centimetre, scale the "
                   "scene by 0.01"});
-    EXPECT_TRUE(warnings(read(doors(0.01))).empty());
+    EXPECT_TRUE(warnings(read(doors(0.01, "point"))).empty());
+    // The light of a sun is the same in every unit.
+    const Scene sunny = read(doors(1.0, "directional"));
+    EXPECT_TRUE(warnings(sunny).empty());
+    EXPECT_EQ(part(sunny, "units of length").count, 1u);
 }
 
 /// A room of 9 x 9 x 3 m in centimetres, and its door, with a lamp at a height.
@@ -453,9 +535,9 @@ TEST(SceneParts, CentimetresOfTwoObjectsAreNoticedByTheirLamps) {
     EXPECT_EQ(
         warnings(read(room(1.0, 200.0))),
         std::vector<std::string>{
-            "units of length (the scene): all objects are larger than 219 m, and all lamps "
-            "farther than 20 m from them; lights fade over distance in metres; if the unit is "
-            "a centimetre, scale the scene by 0.01"});
+            "units of length (the scene): the boxes of all objects have diagonals of more than "
+            "219 m, and all lamps are farther than 20 m from them; metres are assumed; if the unit "
+            "is a centimetre, scale the scene by 0.01"});
     EXPECT_TRUE(warnings(read(room(0.01, 2.0))).empty());
     EXPECT_TRUE(warnings(read(room(1.0, 5.0))).empty());  // a street lamp in a landscape
     GltfBuilder dark = room(1.0, 200.0);
