@@ -47,7 +47,9 @@ Status check_no_scene_reading(const Values& values, std::string_view message) {
 
 Result<Scene> read_scene(const std::string& path, const SceneReading& reading) {
     auto scene = read_gltf(path, reading);
-    if (!scene && read_probe_groups(path))
+    // A file of groups is a glTF file without a version.
+    const bool may_be_groups = !scene && scene.error().field == "asset.version";
+    if (may_be_groups && read_probe_groups(path))
         return Error{ErrorCode::InvalidArgument, "scene", path,
                      path + ": contains probe groups, not a scene"};
     if (scene || scene.error().field != "scene" || reading.scene.empty()) return scene;

@@ -140,7 +140,7 @@ template <class Hash>
 void add(Hash& hash, const Scene& scene) {
     const auto& [textures, normal_maps, materials, meshes, instances, nodes, lights, light_names,
                  environment, cameras, probe_groups, probe_adjustments, portals, reflection_places,
-                 parts, memory, warnings] = scene;
+                 parts, memory, choice, warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);

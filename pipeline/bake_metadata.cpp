@@ -9,6 +9,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/bake_members.h>
+#include <tetralight/pipeline/scene_choice_record.h>
 #include <tetralight/pipeline/value_record.h>
 #include <tetralight/probes/build/check_metadata.h>
 
@@ -71,6 +72,7 @@ std::string bake_metadata(const Scene& scene, const BakeVolumeSettings& settings
     Json json;
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
+    record_scene_choice(scene.choice, json);
     json.update(recorded(settings));
     if (has_overrides) json["adjustments"] = hex(adjustments_key(scene.probe_adjustments));
     if (has_dering) json["dering"] = name_of(settings.dering.window);

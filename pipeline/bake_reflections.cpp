@@ -27,6 +27,7 @@
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/pipeline/lightmap_cubes.h>
 #include <tetralight/pipeline/reflection_settings.h>
+#include <tetralight/pipeline/scene_choice_record.h>
 #include <tetralight/pipeline/stored_cubes.h>
 #include <tetralight/pipeline/value_record.h>
 
@@ -83,6 +84,7 @@ std::string metadata(const Scene& scene, const BakeReflectionsSettings& settings
     nlohmann::ordered_json json;
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
+    record_scene_choice(scene.choice, json);
     if (sources.lightmaps.info.page_count > 0) json["light"] = "lightmaps";
     const BakeReflectionsSettings defaults;
     for_each_reflection_setting(settings,

@@ -6,6 +6,7 @@
 #include <tetralight/base/hex.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/lightmap_settings.h>
+#include <tetralight/pipeline/scene_choice_record.h>
 #include <tetralight/pipeline/value_record.h>
 
 namespace tetralight {
@@ -38,6 +39,7 @@ std::string lightmap_metadata(const Scene& scene, const LightingPlan& plan,
     LightmapJson json;
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
+    record_scene_choice(scene.choice, json);
     json.update(recordable_settings(settings));
     const LightmapJson defaults = recordable_settings({});
     for_each_lightmap_setting(settings, [&](const char* name, const auto&, Recorded record) {

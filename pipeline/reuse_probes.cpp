@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/scene_choice_record.h>
 
 namespace tetralight {
 namespace {
@@ -66,6 +67,10 @@ Status check_metadata(std::string_view old, std::string_view fresh) {
                      "its metadata has no hash of its scene"};
     }
     for (const char* member : {"dering", "walls"}) {
+        old_json.erase(member);
+        fresh_json.erase(member);
+    }
+    for (const char* member : kSceneChoiceMembers) {
         old_json.erase(member);
         fresh_json.erase(member);
     }

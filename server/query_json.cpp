@@ -159,11 +159,14 @@ Query read_query(const std::string& body, QueryLists& lists) {
             "body", str_cat(body.size(), " bytes")};
     }
     ListTaker taker(lists);
-    Json json = parse_object(body, std::ref(taker));
+    // A callback makes the parser look through all elements of an array when an object in it ends.
+    constexpr ptrdiff_t kMostObjects = 64;
+    const bool has_few_objects = std::ranges::count(body, '{') <= kMostObjects;
+    Json json = has_few_objects ? parse_object(body, std::ref(taker)) : parse_object(body);
     const bool has_lists =
         is_list(json, "positions") && (!has_normals(json) || is_list(json, "normals"));
-    if (!taker.has_only_triples() || !has_lists) {
-        json = parse_object(body);
+    if (!has_few_objects || !taker.has_only_triples() || !has_lists) {
+        if (has_few_objects) json = parse_object(body);
         read_lists(json, lists);
     }
     if (has_normals(json)) normalize(lists);

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
+#include <tetralight/base/json/json_visitor.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -25,23 +25,41 @@ using detail::in_member;
 using nlohmann::json;
 
 /// Follows the parser, so that a syntax error names the group and the probe that it is in.
-class ParsePlace {
+class ParsePlace : public JsonVisitor {
   public:
-    bool operator()(int depth, json::parse_event_t event, const json& parsed) {
-        using Event = json::parse_event_t;
-        if (event == Event::object_start && depth == kGroupDepth) start_group();
-        if (event == Event::key && depth == kGroupDepth + 1) start_key(parsed.get<std::string>());
-        if (event == Event::value && depth == kGroupDepth + 1 && key_ == "name") {
-            if (parsed.is_string()) name_ = parsed.get<std::string>();
-        }
-        if (event == Event::array_start && depth == kGroupDepth + 2 && key_ == "positions") {
-            is_in_probe_ = true;
-        }
-        if (event == Event::array_end && depth == kGroupDepth + 2 && key_ == "positions") {
-            is_in_probe_ = false;
-            ++probe_count_;
-        }
-        if (event == Event::object_end && depth == kGroupDepth) is_in_group_ = false;
+    bool start_object(size_t) override {
+        if (depth_ == kGroupDepth) start_group();
+        ++depth_;
+        return true;
+    }
+
+    bool key(string_t& name) override {
+        if (depth_ == kGroupDepth + 1) start_key(name);
+        return true;
+    }
+
+    bool string(string_t& text) override {
+        if (depth_ == kGroupDepth + 1 && key_ == "name") name_ = text;
+        return true;
+    }
+
+    bool start_array(size_t) override {
+        if (is_at_probe()) is_in_probe_ = true;
+        ++depth_;
+        return true;
+    }
+
+    bool end_array() override {
+        --depth_;
+        if (!is_at_probe()) return true;
+        is_in_probe_ = false;
+        ++probe_count_;
+        return true;
+    }
+
+    bool end_object() override {
+        --depth_;
+        if (depth_ == kGroupDepth) is_in_group_ = false;
         return true;
     }
 
@@ -60,7 +78,12 @@ class ParsePlace {
     }
 
   private:
+    /// The number of arrays and objects around a group.
     static constexpr int kGroupDepth = 2;
+
+    [[nodiscard]] bool is_at_probe() const {
+        return depth_ == kGroupDepth + 2 && key_ == "positions";
+    }
 
     void start_group() {
         is_in_group_ = true;
@@ -78,6 +101,7 @@ class ParsePlace {
             located({ErrorCode::Corrupt, "." + key, "", str_cat("key \"", key, "\" stands twice")});
     }
 
+    int depth_ = 0;
     std::optional<Error> duplicate_key_;
     std::set<std::string> keys_;
     bool is_in_group_ = false;
@@ -235,7 +259,8 @@ Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     if (auto status = check_json_shape(characters); !status) return status.error();
     ParsePlace place;
     try {
-        const json document = json::parse(characters, std::ref(place));
+        json::sax_parse(characters, &place);
+        const json document = json::parse(characters);
         if (place.duplicate_key()) return *place.duplicate_key();
         return read_groups(document);
     } catch (const std::bad_alloc&) {

@@ -179,6 +179,8 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     if (!document) return document.error();
     if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
     Scene scene;
+    scene.choice = {reading.scene, reading.time, reading.animation,
+                    reading.light_unit == LightUnit::Watt};
     scene.memory = document->memory;
     scene.memory.image_bytes = detail::image_memory(*document, reading.normal_maps);
     const auto fits = detail::check_reading_memory(scene.memory);

@@ -186,6 +186,17 @@ struct Portal {
     bool operator==(const Portal&) const = default;
 };
 
+/// Which scene of a file was read, in which pose and in which unit; defaults are the file's own.
+struct SceneChoice {
+    std::string scene_name;
+    std::optional<double> time_seconds;
+    std::string animation;
+    /// Intensities of lights were divided by 683.
+    bool is_in_watts = false;
+
+    bool operator==(const SceneChoice&) const = default;
+};
+
 struct Scene {
     std::vector<Texture> textures;
     /// Textures of normal maps, apart from the others: bakes of probes do not depend on them.
@@ -208,6 +219,8 @@ struct Scene {
     std::vector<ScenePart> parts;
     /// What reading it took.
     SceneMemory memory;
+    /// What was asked for when it was read: its scene and pose.
+    SceneChoice choice;
     /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 

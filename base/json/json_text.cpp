@@ -6,9 +6,37 @@
 #include <set>
 #include <vector>
 
+#include <tetralight/base/json/json_visitor.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
+namespace {
+
+/// Ends at the first key that an object has twice.
+class DuplicateFinder : public JsonVisitor {
+  public:
+    bool start_object(size_t) override {
+        keys_.emplace_back();
+        return true;
+    }
+
+    bool key(string_t& name) override {
+        if (!keys_.back().insert(name).second) duplicate = name;
+        return !duplicate;
+    }
+
+    bool end_object() override {
+        keys_.pop_back();
+        return true;
+    }
+
+    std::optional<std::string> duplicate;
+
+  private:
+    std::vector<std::set<std::string>> keys_;
+};
+
+}  // namespace
 
 Status check_json_shape(std::string_view json) {
     int depth = 0;
@@ -51,19 +79,9 @@ Status check_json_object(std::string_view json) {
 }
 
 std::optional<std::string> find_duplicate_key(std::string_view json) {
-    using Json = nlohmann::json;
-    std::vector<std::set<std::string>> keys;
-    std::optional<std::string> duplicate;
-    const auto look = [&](int, Json::parse_event_t event, Json& value) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event != Json::parse_event_t::key) return true;
-        const std::string key = value.get<std::string>();
-        if (!keys.back().insert(key).second && !duplicate) duplicate = key;
-        return true;
-    };
-    [[maybe_unused]] const Json ignored = Json::parse(json, look);
-    return duplicate;
+    DuplicateFinder finder;
+    nlohmann::json::sax_parse(json, &finder);
+    return finder.duplicate;
 }
 
 std::string json_error_reason(const std::exception& exception) {

@@ -2,6 +2,7 @@
 // What was read of a scene, and the settings of reading.
 #include <algorithm>
 
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -191,11 +192,17 @@ TEST_F(Explain, WattsBakeAsTheSameIntensityInLux) {
         Arguments all{"bake", "-g", "five.json", "-s", "16", "-o", output};
         all.insert(all.end(), more.begin(), more.end());
         succeed(all);
-        return read(output);
+        const auto file = open_probe_file(path(output));
+        EXPECT_TRUE(file);
+        const auto light = file->view().irradiance;
+        return std::vector<IrradianceSh>(light.begin(), light.end());
     };
-    const std::string lux = bake({"s.gltf"}, "lux.probes");
+    const auto lux = bake({"s.gltf"}, "lux.probes");
     EXPECT_EQ(bake({"watt.gltf", "--light-unit", "watt"}, "watt.probes"), lux);
     EXPECT_NE(bake({"watt.gltf"}, "bright.probes"), lux);
+    // The volume says how its scene was read.
+    EXPECT_EQ(run_json({"info", "watt.probes"})["made_with"]["light_unit"], "watt");
+    EXPECT_FALSE(run_json({"info", "lux.probes"})["made_with"].contains("light_unit"));
 }
 
 TEST_F(Explain, JobsHaveTheSameSettings) {

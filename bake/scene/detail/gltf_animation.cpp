@@ -224,13 +224,16 @@ Result<uint32_t> find_animation(const GltfDocument& document, const std::string&
     const char* end = text.data() + text.size();
     const bool is_index = text.empty() || std::from_chars(text.data(), end, index).ptr == end;
     if (is_index && index < all.size()) return index;
+    if (all.empty()) {
+        return Error{ErrorCode::InvalidArgument, "animation", quoted_value(text),
+                     "has no animations"};
+    }
     std::string list;
     for (size_t i = 0; i < all.size(); ++i) {
         list += str_cat(i == 0 ? "" : ", ", i, " \"", all[i].name, "\"");
     }
-    const std::string wanted = text.empty() ? "" : str_cat(" \"", quoted_value(text), "\"");
     return Error{ErrorCode::InvalidArgument, "animation", quoted_value(text),
-                 str_cat("has no animation", wanted, "; it has ", list.empty() ? "none" : list)};
+                 str_cat("has no animation \"", quoted_value(text), "\"; it has ", list)};
 }
 
 Status pose_nodes(GltfDocument& document, uint32_t animation, double time) {

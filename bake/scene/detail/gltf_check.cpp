@@ -75,9 +75,11 @@ Status check_least_version(const json& document) {
 
 Status check_version(const json& document) {
     const json* version = find_json(document, "asset/version");
-    if (version == nullptr || !version->is_string()) {
+    if (version == nullptr) {
         return Error{ErrorCode::Corrupt, "asset.version", "", "asset.version is missing"};
     }
+    if (!version->is_string())
+        return in_member(wrong_type(*version, "asset.version", "a string"), "");
     const auto& text = version->get_ref<const std::string&>();
     if (text.starts_with("2.")) return check_least_version(document);
     const char* remedy =
@@ -87,12 +89,21 @@ Status check_version(const json& document) {
         str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)", remedy)};
 }
 
+/// A list of names of extensions.
+Status check_extension_names(const json& document, const char* member) {
+    const json* names = find_json(document, member);
+    if (names == nullptr) return Ok{};
+    const auto is_name = [](const json& name) { return name.is_string(); };
+    if (names->is_array() && std::ranges::all_of(*names, is_name)) return Ok{};
+    return in_member(wrong_type(*names, member, "a list of names"), "");
+}
+
 Status check_required_extensions(const json& document) {
+    for (const char* member : {"extensionsUsed", "extensionsRequired"}) {
+        if (auto status = check_extension_names(document, member); !status) return status;
+    }
     const json* required = find_json(document, "extensionsRequired");
     if (required == nullptr) return Ok{};
-    if (!required->is_array()) {
-        return in_member(wrong_type(*required, "extensionsRequired", "an array"), "");
-    }
     for (const json& extension : *required) {
         if (is_supported(document, extension)) continue;
         return unsupported_extension(extension);

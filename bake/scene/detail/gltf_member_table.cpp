@@ -39,6 +39,8 @@ constexpr std::string_view kSpecularGlossinessNames[] = {"diffuseFactor", "diffu
                                                          "specularFactor", "glossinessFactor",
                                                          "specularGlossinessTexture"};
 constexpr std::string_view kTransmissionNames[] = {"transmissionFactor", "transmissionTexture"};
+constexpr std::string_view kTextureTransformNames[] = {"offset", "rotation", "scale", "texCoord"};
+constexpr std::string_view kNodeVisibilityNames[] = {"visible"};
 constexpr std::string_view kMeshNames[] = {"primitives", "weights", "name"};
 constexpr std::string_view kPrimitiveNames[] = {"attributes", "indices", "material", "mode",
                                                 "targets"};
@@ -97,6 +99,17 @@ constexpr GltfMembers kMemberTable[] = {
     {"meshes", "meshes", "", kMeshNames},
     {"primitives", "meshes", "primitives", kPrimitiveNames},
     {"nodes", "nodes", "", kNodeNames},
+    {"KHR_node_visibility", "nodes", "extensions/KHR_node_visibility", kNodeVisibilityNames},
+    {"KHR_texture_transform", "materials",
+     "pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform",
+     kTextureTransformNames},
+    {"KHR_texture_transform", "materials",
+     "pbrMetallicRoughness/metallicRoughnessTexture/extensions/KHR_texture_transform",
+     kTextureTransformNames},
+    {"KHR_texture_transform", "materials", "emissiveTexture/extensions/KHR_texture_transform",
+     kTextureTransformNames},
+    {"KHR_texture_transform", "materials", "normalTexture/extensions/KHR_texture_transform",
+     kTextureTransformNames},
     {"samplers", "samplers", "", kSamplerNames},
     {"scenes", "scenes", "", kSceneNames},
     {"skins", "skins", "", kSkinNames},

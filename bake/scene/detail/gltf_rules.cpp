@@ -8,6 +8,7 @@
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_extension_table.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/str_cat.h>
@@ -24,6 +25,8 @@ class Checker {
     explicit Checker(const json& document) : document_(document) {}
 
     [[nodiscard]] Status check_sections() const {
+        if (auto status = check_extensions(document_, ""); !status)
+            return in_member(status.error(), "");
         for (const GltfSection& section : gltf_sections()) {
             if (auto status = check_parent(section.path); !status) return status;
             const json* elements = find_json(document_, section.path);
@@ -77,9 +80,23 @@ class Checker {
     /// `prefix` is the path of the object in its element: "" or ends in '/'.
     [[nodiscard]] Status check_rules(const json& object, std::span<const GltfRule> rules,
                                      const std::string& prefix) const {
+        if (auto status = check_extensions(object, prefix); !status) return status;
         for (const GltfRule& rule : rules) {
             const auto status = check_rule(object, rule, prefix);
             if (!status) return status;
+        }
+        return Ok{};
+    }
+
+    /// An object's extensions, and those of them that are known, are objects.
+    [[nodiscard]] static Status check_extensions(const json& object, const std::string& prefix) {
+        const auto extensions = object.find("extensions");
+        if (extensions == object.end()) return Ok{};
+        const std::string name = prefix + "extensions";
+        if (!extensions->is_object()) return checked(false, *extensions, name, "an object");
+        for (const auto& [key, value] : extensions->items()) {
+            if (value.is_object() || find_gltf_extension(key) == nullptr) continue;
+            return checked(false, value, str_cat(name, "/", key), "an object");
         }
         return Ok{};
     }

@@ -14,13 +14,39 @@ namespace {
 struct LitTexture {
     const char* name;
     TextureUse use;
+    /// How it is read where its coordinates are missing.
+    const char* without_coordinates = "is read as white";
 };
 
+/// Textures that are converted together with others of the material (TexelGrid).
+std::vector<LitTexture> converted_textures(const GltfMaterial& material) {
+    std::vector<LitTexture> textures;
+    const bool is_glass = material.transmission && material.transmission->factor > 0.0;
+    const char* surface = is_glass ? "is not applied, and the surface is opaque"
+                                   : "is not applied, and the surface is white metal";
+    if (material.specular_glossiness) {
+        textures.push_back(
+            {"diffuseTexture", material.specular_glossiness->diffuse_texture, surface});
+        textures.push_back({"specularGlossinessTexture",
+                            material.specular_glossiness->specular_glossiness_texture, surface});
+    } else if (is_glass) {
+        textures.push_back({"baseColorTexture", material.base_color_texture, surface});
+        textures.push_back(
+            {"metallicRoughnessTexture", material.metallic_roughness_texture, surface});
+    }
+    if (is_glass)
+        textures.push_back({"transmissionTexture", material.transmission->texture, surface});
+    return textures;
+}
+
 std::vector<LitTexture> lit_textures(const GltfMaterial& material) {
-    std::vector<LitTexture> textures{{"baseColorTexture", material.base_color_texture}};
-    if (material.is_unlit) return textures;
-    if (material.metallic > 0.0 || material.roughness > 0.0)
-        textures.push_back({"metallicRoughnessTexture", material.metallic_roughness_texture});
+    if (material.is_unlit) return {{"baseColorTexture", material.base_color_texture}};
+    std::vector<LitTexture> textures = converted_textures(material);
+    if (textures.empty()) {
+        textures.push_back({"baseColorTexture", material.base_color_texture});
+        if (material.metallic > 0.0 || material.roughness > 0.0)
+            textures.push_back({"metallicRoughnessTexture", material.metallic_roughness_texture});
+    }
     if (material.emissive_factor != glm::dvec3(0.0))
         textures.push_back({"emissiveTexture", material.emission_texture});
     return textures;
@@ -39,7 +65,7 @@ void add_missing(const GltfDocument& document, const GltfPrimitive& primitive,
         ScenePart part;
         part.use = PartUse::Ignored;
         part.name = str_cat(texture.name, " of ", place);
-        part.note = str_cat("is read as white where meshes have no ", set);
+        part.note = str_cat(texture.without_coordinates, " where meshes have no ", set);
         part.remedy = str_cat("export the meshes with ", set, ", or take the texture away");
         part.changes_light = true;
         parts.add(part, mesh);

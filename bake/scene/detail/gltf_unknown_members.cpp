@@ -40,7 +40,7 @@ bool is_common(std::string_view name) {
         "name",    "type",     "index",  "indices", "count",  "mode",    "scale",    "source",
         "target",  "path",     "input",  "output",  "values", "min",     "max",      "weights",
         "uri",     "node",     "nodes",  "color",   "range",  "version", "strength", "buffer",
-        "sampler", "samplers", "camera", "size",    "rect",   "aspect"};
+        "sampler", "samplers", "camera", "size",    "rect",   "aspect",  "offset",   "visible"};
     return std::ranges::find(kWords, name) != std::end(kWords);
 }
 

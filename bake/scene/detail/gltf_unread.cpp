@@ -73,6 +73,29 @@ bool is_without_effect(const std::string& name, const json& element) {
     return name == "KHR_materials_transmission" && factor("transmissionFactor") == 0.0;
 }
 
+/// Why a material with KHR_materials_transmission lets no light through; empty if it does.
+std::string_view reason_for_opacity(const std::string& name, const json& material) {
+    if (name != "KHR_materials_transmission") return "";
+    const json* extensions = find_json(material, "extensions");
+    if (extensions->contains("KHR_materials_unlit")) return "unlit materials let no light through";
+    const bool is_metal =
+        !extensions->contains("KHR_materials_pbrSpecularGlossiness") &&
+        number_at(material, "pbrMetallicRoughness/metallicFactor", 1.0) >= 1.0 &&
+        find_json(material, "pbrMetallicRoughness/metallicRoughnessTexture") == nullptr;
+    return is_metal ? "metals let no light through: metallicFactor is 1" : "";
+}
+
+/// Why lights of a file are not in the scene; empty if they may be.
+std::string_view reason_for_no_lights(const std::string& name, const json& source) {
+    const auto has_lights = [&] {
+        return !array_at(source, str_cat("extensions/", name, "/lights")).empty();
+    };
+    if (name == "EXT_lights_image_based" && has_lights())
+        return "the scene names none of its lights";
+    const bool is_of_nodes = name == "KHR_lights_punctual" || name == "EXT_lights_area";
+    return is_of_nodes && has_lights() ? "no node has one of its lights" : "";
+}
+
 /// The names of all extensions of a value and of what is in it, but not in its extras.
 void find_extensions(const json& value, std::set<std::string>& names) {
     if (!value.is_structured()) return;
@@ -103,6 +126,8 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
                 ScenePart part;
                 part.name = name;
                 parts.add(part, place);
+            } else if (const auto opaque = reason_for_opacity(name, element); !opaque.empty()) {
+                parts.add_left_out(name, std::string(opaque), false, place);
             } else {
                 add_extension(name, place, parts);
             }
@@ -120,16 +145,9 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
     }
     for (const std::string& name : of_file) {
         if (seen.contains(name)) continue;
-        if (name == "EXT_lights_image_based" &&
-            !array_at(source, "extensions/EXT_lights_image_based/lights").empty()) {
-            parts.add({PartUse::Ignored,
-                       name,
-                       0,
-                       {},
-                       "the scene names none of its lights",
-                       "name the index of one in the extensions of the scene",
-                       !document.sky_radiance},
-                      "the file");
+        if (const auto reason = reason_for_no_lights(name, source); !reason.empty()) {
+            const bool may_be_sky = name == "EXT_lights_image_based" && !document.sky_radiance;
+            parts.add_left_out(name, std::string(reason), may_be_sky, "the file");
         } else {
             add_extension(name, "the file", parts);
         }

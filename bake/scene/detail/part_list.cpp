@@ -1,17 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/part_list.h>
 
-#include <algorithm>
-
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
+namespace {
+
+std::string key_of(const ScenePart& part) {
+    return str_cat(static_cast<uint32_t>(part.use), part.name, "\n", part.note);
+}
+
+}  // namespace
 
 ScenePart& PartList::row(const ScenePart& part) {
-    const auto found = std::ranges::find_if(parts_, [&](const ScenePart& other) {
-        return other.name == part.name && other.use == part.use && other.note == part.note;
-    });
-    return found != parts_.end() ? *found : parts_.emplace_back(part);
+    if (parts_.size() == kMaxRows - 1 && !rows_.contains(key_of(part))) {
+        ScenePart others;
+        others.use = PartUse::Ignored;
+        others.name = "other parts";
+        others.note = "are of more kinds than are listed";
+        others.changes_light = true;
+        rows_.emplace(key_of(others), parts_.size());
+        parts_.push_back(others);
+    }
+    if (parts_.size() >= kMaxRows) {
+        const auto known = rows_.find(key_of(part));
+        return parts_[known == rows_.end() ? kMaxRows - 1 : known->second];
+    }
+    const auto [row, is_new] = rows_.emplace(key_of(part), parts_.size());
+    if (is_new) parts_.push_back(part);
+    return parts_[row->second];
 }
 
 void PartList::add(const ScenePart& part, const std::string& element) {

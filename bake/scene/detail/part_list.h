@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <tetralight/bake/scene/scene_parts.h>
@@ -26,6 +27,9 @@ class PartList {
     /// Appends rows.
     void append(const std::vector<ScenePart>& parts);
 
+    /// Rows of different names, uses or notes that are kept; more of them share one row.
+    static constexpr size_t kMaxRows = 1000;
+
     /// Rows in the order in which they were begun.
     [[nodiscard]] const std::vector<ScenePart>& parts() const { return parts_; }
 
@@ -33,6 +37,8 @@ class PartList {
     ScenePart& row(const ScenePart& part);
 
     std::vector<ScenePart> parts_;
+    /// Index in `parts_` by use, name and note.
+    std::unordered_map<std::string, size_t> rows_;
 };
 
 /// What a warning says of a part: `NAME (2 materials...): NOTE; REMEDY`.

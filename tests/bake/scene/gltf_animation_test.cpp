@@ -167,8 +167,7 @@ TEST(GltfAnimation, IsFoundByNameOrIndex) {
 
 TEST(GltfAnimation, NamesTheAnimationsThatThereAre) {
     Document document;
-    EXPECT_EQ(error_text(detail::find_animation(document, "").error()),
-              "has no animation; it has none");
+    EXPECT_EQ(error_text(detail::find_animation(document, "").error()), "has no animations");
     document.animations = {{"walk", {}}, {"run", {}}};
     for (const char* text : {"jump", "2", "-1", "1x"}) {
         const auto found = detail::find_animation(document, text);

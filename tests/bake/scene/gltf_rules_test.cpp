@@ -139,6 +139,30 @@ TEST(GltfRules, NamesTheElementAndTheValue) {
     EXPECT_EQ(gltf.error(), "scene.glb: node 1 \"wall\": mesh 9999 is out of range (1 meshes)");
 }
 
+TEST(GltfRules, ExtensionsAreObjects) {
+    const auto error_with = [](const char* pointer, const Json& value) {
+        GltfBuilder gltf;
+        gltf.add_root({{"name", "lamp"}});
+        gltf.json[Json::json_pointer(pointer)] = value;
+        return gltf.error();
+    };
+    EXPECT_EQ(error_with("/nodes/0/extensions", Json::array()),
+              "scene.glb: node 0 \"lamp\": extensions is not an object ([])");
+    EXPECT_EQ(error_with("/nodes/0/extensions", nullptr),
+              "scene.glb: node 0 \"lamp\": extensions is not an object (null)");
+    EXPECT_EQ(error_with("/nodes/0/extensions", {{"KHR_lights_punctual", {0}}}),
+              "scene.glb: node 0 \"lamp\": extensions/KHR_lights_punctual is not an object ([0])");
+    EXPECT_EQ(error_with("/extensions", "x"), "scene.glb: extensions is not an object (\"x\")");
+    EXPECT_EQ(error_with("/extensionsUsed", {1}),
+              "scene.glb: extensionsUsed is not a list of names ([1])");
+    EXPECT_EQ(error_with("/extensionsRequired", "KHR_draco_mesh_compression"),
+              "scene.glb: extensionsRequired is not a list of names "
+              "(\"KHR_draco_mesh_compression\")");
+    EXPECT_EQ(error_with("/asset/version", 2.0), "scene.glb: asset.version is not a string (2.0)");
+    // Extensions of others may be anything.
+    EXPECT_EQ(error_with("/nodes/0/extensions", {{"ACME_tag", 1}}), "(no error)");
+}
+
 TEST(GltfRules, NamesThePlaceInAList) {
     GltfBuilder gltf;
     gltf.add_root({{"name", "wall"}, {"children", {12345}}});

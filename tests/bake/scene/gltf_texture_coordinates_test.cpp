@@ -44,6 +44,27 @@ TEST(GltfTextureCoordinates, NamesTheTextureAndTheMeshThatLacksThem) {
     EXPECT_TRUE(parts[0].changes_light);
 }
 
+TEST(GltfTextureCoordinates, ConvertedTexturesNeedThem) {
+    detail::GltfDocument document = bricks();
+    detail::GltfMaterial& material = document.materials[0];
+    document.meshes[0].primitives[0].attributes.erase("TEXCOORD_0");
+    material.base_color_texture = {};
+    material.specular_glossiness.emplace().diffuse_texture.texture = 0;
+    auto parts = missing(document);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].name, "diffuseTexture of material 0 \"bricks\"");
+    EXPECT_TRUE(parts[0].changes_light);
+    material.specular_glossiness.reset();
+    material.transmission.emplace().texture.texture = 0;
+    EXPECT_TRUE(missing(document).empty());  // its factor is 0
+    material.transmission->factor = 0.5;
+    parts = missing(document);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].name, "transmissionTexture of material 0 \"bricks\"");
+    EXPECT_EQ(parts[0].note,
+              "is not applied, and the surface is opaque where meshes have no TEXCOORD_0");
+}
+
 TEST(GltfTextureCoordinates, TexturesWithoutAnEffectDoNotNeedThem) {
     detail::GltfDocument document = bricks();
     detail::GltfMaterial& material = document.materials[0];

@@ -174,7 +174,8 @@ TEST(ImageBasedLightGlb, MembersOfAnotherTypeAreNamed) {
     gltf.json["extensions"][kExtension] = "none";
     error = refusal(gltf);
     EXPECT_EQ(error.field, "extensions.EXT_lights_image_based");
-    EXPECT_EQ(message_of(error), "scene.glb: EXT_lights_image_based is not an object (\"none\")");
+    EXPECT_EQ(message_of(error),
+              "scene.glb: extensions/EXT_lights_image_based is not an object (\"none\")");
 
     gltf = two_scenes();
     gltf.json["scenes"][1]["extensions"] = {{kExtension, 7}};

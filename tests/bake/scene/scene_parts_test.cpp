@@ -341,6 +341,48 @@ TEST(SceneParts, ExtensionsWithAFactorOf0HaveNoEffect) {
         EXPECT_EQ(part(scene, name).use, PartUse::Read) << name;
 }
 
+TEST(SceneParts, LightsThatNoNodeHasAreNotRead) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf.json["nodes"][1].erase("extensions");
+    const Scene scene = read(gltf);
+    EXPECT_EQ(part(scene, "KHR_lights_punctual").use, PartUse::Ignored);
+    EXPECT_EQ(part(scene, "KHR_lights_punctual").note, "no node has one of its lights");
+}
+
+TEST(SceneParts, MetalsLetNoLightThrough) {
+    const auto note_of = [](const Json& material) {
+        GltfBuilder gltf = plain_scene();
+        gltf.json["materials"][0].update(material);
+        gltf.json["materials"][0]["extensions"]["KHR_materials_transmission"] = {
+            {"transmissionFactor", 1}};
+        return part(read(gltf), "KHR_materials_transmission").note;
+    };
+    const char* kOpaque = "metals let no light through: metallicFactor is 1";
+    EXPECT_EQ(note_of(Json::object()), kOpaque);  // the default of glTF
+    EXPECT_EQ(note_of({{"pbrMetallicRoughness", {{"metallicFactor", 1}}}}), kOpaque);
+    EXPECT_EQ(note_of({{"pbrMetallicRoughness", {{"metallicFactor", 0.5}}}}),
+              "light shines straight through, as through holes");
+    EXPECT_EQ(note_of({{"extensions", {{"KHR_materials_unlit", Json::object()}}}}),
+              "unlit materials let no light through");
+}
+
+TEST(SceneParts, RowsOfManyKindsAreFew) {
+    GltfBuilder gltf = plain_scene();
+    for (int i = 0; i < 3000; ++i) gltf.json["extensionsUsed"].push_back(str_cat("EXT_", i));
+    const Scene scene = read(gltf);
+    EXPECT_LE(scene.parts.size(), 1100u);
+    EXPECT_GT(part(scene, "other parts").count, 1900u);
+    EXPECT_LE(scene.warnings.size(), 1100u);
+}
+
+TEST(SceneParts, RemembersWhatWasAskedFor) {
+    GltfBuilder gltf = plain_scene();
+    EXPECT_EQ(read(gltf).choice, SceneChoice());
+    const SceneChoice choice = read(gltf, {.scene = "0", .light_unit = LightUnit::Watt}).choice;
+    EXPECT_EQ(choice, (SceneChoice{"0", std::nullopt, "", true}));
+}
+
 TEST(SceneParts, ScenesOfOneNameAreToldApartByTheirIndices) {
     GltfBuilder gltf = plain_scene();
     gltf.json["scenes"][0]["name"] = "day";
@@ -367,8 +409,7 @@ TEST(SceneParts, AnImageBasedLightThatTheSceneDoesNotNameIsNoSky) {
         {"lights", {{{"specularImages", Json::array()}, {"specularImageSize", 4}}}}};
     EXPECT_EQ(warnings(read(gltf)),
               std::vector<std::string>{
-                  "EXT_lights_image_based (the file): the scene names none of its lights; name the "
-                  "index of one in the extensions of the scene"});
+                  "EXT_lights_image_based (the file): the scene names none of its lights"});
 }
 
 TEST(SceneParts, ControlCharactersOfNamesAreBlanks) {
