@@ -318,18 +318,18 @@ class Bakes(BakeTest):
 
     def test_the_pace_after_a_restart_is_that_of_the_new_run(self):
         server = self.start()
-        bake = self.begin(server, **SLOW)
-        self.wait_for_chunks(bake, 3)
+        bake = self.begin(server, **{**SLOW, "samples": 4 * SLOW["samples"]})
+        self.wait_for_chunks(bake, 1)
         server.kill()
         # A claim of the run before, which no run could keep.
         with open(os.path.join(self.data, "bakes", bake, "results", "progress.json"), "w") as file:
             json.dump({"probe_count": 1, "rays_per_second": 1e30, "seconds_left": 1e30}, file)
         server = self.start()
         seen = []
-        while (answer := server.get("/v1/bakes/" + bake).json())["state"] in ("queued", "running"):
-            seen.append(answer)
-        self.assertEqual(answer["state"], "done", answer)
-        self.assertTrue(any(answer["rays_per_second"] for answer in seen))
+        while not seen or not seen[-1]["rays_per_second"]:
+            seen.append(server.get("/v1/bakes/" + bake).json())
+            self.assertIn(seen[-1]["state"], ("queued", "running"))
+            time.sleep(0.02)
         for answer in seen:
             self.assertTrue((answer["rays_per_second"] or 0) < 1e30, answer)
             self.assertTrue((answer["seconds_left"] or 0) < 1e30, answer)
