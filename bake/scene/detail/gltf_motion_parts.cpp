@@ -69,8 +69,9 @@ void add_motion_parts(const GltfDocument& document, std::span<const GltfWorldNod
         const std::string place = gltf_place("node", placed.node, node.name);
         ScenePart part;
         part.name = "skins";
-        if (is_skinned(document, node)) parts.add(part, place);
-        if (is_skinned(document, node) && node.parent_from_node != glm::dmat4(1.0)) {
+        const bool has_skin = is_skinned(document, node);
+        if (has_skin) parts.add(part, place);
+        if (has_skin && node.parent_from_node != glm::dmat4(1.0)) {
             parts.add_left_out("transforms of skinned nodes",
                                "have no effect on their meshes, which stand where the joints are",
                                false, place);

@@ -145,7 +145,7 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         return placed;
     }
     if (source.rotation == glm::dquat(0.0, 0.0, 0.0, 0.0)) {
-        return node_error(document, node, "rotation (0, 0, 0, 0) is no rotation");
+        return node_error(document, node, "rotation (0, 0, 0, 0) is a quaternion of length 0");
     }
     return node_error(document, node, "transform is not finite or not affine");
 }

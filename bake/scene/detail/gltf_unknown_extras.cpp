@@ -176,14 +176,8 @@ void add_extras(std::string_view section, const json& element, const std::string
         } else if (const std::string near = meant_name(name, names); !near.empty()) {
             add_misspelt(name, near, place, parts);
         } else {
-            parts.add({PartUse::Ignored,
-                       "other extras",
-                       0,
-                       {},
-                       "belong to the program that wrote the file",
-                       "",
-                       false},
-                      str_cat(place, ": ", name));
+            parts.add_left_out("other extras", "belong to the program that wrote the file", false,
+                               str_cat(place, ": ", name));
         }
     }
 }

@@ -82,7 +82,7 @@ ScenePart wrong_member(const GltfMembers& known, const std::string& name) {
         part.note = str_cat("is a member of ", place->object);
         part.remedy = str_cat("move it to ", place->object);
     } else if (const std::string near = meant_member(known, name); !near.empty()) {
-        part.note = "is no member that glTF 2.0 defines";
+        part.note = "is not defined";
         part.remedy = str_cat("did you mean \"", near, "\"?");
         part.changes_light = !is_without_light(near);
     }
@@ -93,14 +93,8 @@ void add_unknown(const GltfMembers& known, const std::string& name, const std::s
                  PartList& parts) {
     const ScenePart part = wrong_member(known, name);
     if (!part.note.empty()) return parts.add(part, element);
-    parts.add({PartUse::Ignored,
-               "other members",
-               0,
-               {},
-               "are no members that glTF 2.0 defines",
-               "",
-               false},
-              str_cat(element, ": ", name));
+    parts.add_left_out("other members", "are not defined by glTF 2.0", false,
+                       str_cat(element, ": ", name));
 }
 
 /// Visits the object at a path of `value`, or all objects of the lists on the way.

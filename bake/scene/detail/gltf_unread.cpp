@@ -112,28 +112,28 @@ void add_extensions(const json& source, const GltfDocument& document, PartList& 
     const json& scenes = array_at(source, "scenes");
     const json* scene = scenes.empty() ? nullptr : &scenes[document.scene];
     std::set<std::string> seen;
-    for_each_element(source, [&](const GltfSection& section, const json& element,
-                                 const std::string& place) {
-        std::set<std::string> names;
-        find_extensions(element, names);
-        const auto no_sky = &element == scene ? reason_for_no_sky(document) : "";
-        for (const std::string& name : names) {
-            if (name == "EXT_lights_image_based" && !no_sky.empty()) {
-                parts.add({PartUse::Ignored, name, 0, {}, std::string(no_sky), "", false}, place);
-            } else if (is_only_image(name, section, element)) {
-                add_only_image(name, place, parts);
-            } else if (is_without_effect(name, element)) {
-                ScenePart part;
-                part.name = name;
-                parts.add(part, place);
-            } else if (const auto opaque = reason_for_opacity(name, element); !opaque.empty()) {
-                parts.add_left_out(name, std::string(opaque), false, place);
-            } else {
-                add_extension(name, place, parts);
+    for_each_element(
+        source, [&](const GltfSection& section, const json& element, const std::string& place) {
+            std::set<std::string> names;
+            find_extensions(element, names);
+            const auto no_sky = &element == scene ? reason_for_no_sky(document) : "";
+            for (const std::string& name : names) {
+                if (name == "EXT_lights_image_based" && !no_sky.empty()) {
+                    parts.add_left_out(name, std::string(no_sky), false, place);
+                } else if (is_only_image(name, section, element)) {
+                    add_only_image(name, place, parts);
+                } else if (is_without_effect(name, element)) {
+                    ScenePart part;
+                    part.name = name;
+                    parts.add(part, place);
+                } else if (const auto opaque = reason_for_opacity(name, element); !opaque.empty()) {
+                    parts.add_left_out(name, std::string(opaque), false, place);
+                } else {
+                    add_extension(name, place, parts);
+                }
             }
-        }
-        seen.insert(names.begin(), names.end());
-    });
+            seen.insert(names.begin(), names.end());
+        });
     std::set<std::string> of_file;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         for (const json& name : array_at(source, list)) {
@@ -190,14 +190,8 @@ void add_attributes(const GltfPrimitive& primitive, const std::string& place, Pa
     for (const GltfAttributes& target : primitive.targets) {
         for (const auto& [name, accessor] : target) {
             if (begins_with_any(name, {"POSITION", "NORMAL", "TANGENT"})) continue;
-            parts.add({PartUse::Ignored,
-                       "morphed " + name,
-                       0,
-                       {},
-                       "is read without its morphing",
-                       "",
-                       begins_with_any(name, {"COLOR_0", "TEXCOORD_0"})},
-                      place);
+            parts.add_left_out("morphed " + name, "is read without its morphing",
+                               begins_with_any(name, {"COLOR_0", "TEXCOORD_0"}), place);
         }
     }
 }
@@ -221,14 +215,8 @@ void add_instancing(const GltfDocument& document, PartList& parts) {
             parts.add(part, place);
         }
         if (!is_skinned(document, node)) continue;
-        parts.add({PartUse::Ignored,
-                   "instances of a node with a skin",
-                   0,
-                   {},
-                   "the mesh stands once, where its skin has it",
-                   "",
-                   true},
-                  place);
+        parts.add_left_out("instances of a node with a skin",
+                           "the mesh stands once, where its skin has it", true, place);
     }
 }
 
@@ -248,44 +236,31 @@ void add_primitives(const GltfDocument& document, PartList& parts) {
         for (const GltfPrimitive& primitive : document.meshes[i].primitives) {
             add_attributes(primitive, place, parts);
             if (primitive.mode >= 4 || of_probes.contains(i)) continue;
-            parts.add({PartUse::Ignored,
-                       primitive.mode == 0 ? "points" : "lines",
-                       0,
-                       {},
-                       "have no area that reflects light",
-                       "",
-                       false},
-                      place);
+            parts.add_left_out(primitive.mode == 0 ? "points" : "lines",
+                               "have no area that reflects light", false, place);
         }
     }
 }
 
 void add_materials(const json& source, PartList& parts) {
-    for_each_element(
-        source, [&](const GltfSection& section, const json& element, const std::string& place) {
-            const std::string_view kind = section.name;
-            if (kind == "materials" && element.contains("occlusionTexture")) {
-                parts.add({PartUse::Ignored,
-                           "occlusion textures",
-                           0,
-                           {},
-                           "bakes find occlusion by rays",
-                           "",
-                           false},
-                          place);
-            }
-            constexpr uint64_t kNearest = 9728;
-            if (kind == "samplers" && element.value("magFilter", json()) == kNearest) {
-                parts.add({PartUse::Approximated,
-                           "samplers with NEAREST",
-                           0,
-                           {},
-                           "textures are filtered bilinearly",
-                           "",
-                           false},
-                          place);
-            }
-        });
+    for_each_element(source, [&](const GltfSection& section, const json& element,
+                                 const std::string& place) {
+        const std::string_view kind = section.name;
+        if (kind == "materials" && element.contains("occlusionTexture")) {
+            parts.add_left_out("occlusion textures", "bakes find occlusion by rays", false, place);
+        }
+        constexpr uint64_t kNearest = 9728;
+        if (kind == "samplers" && element.value("magFilter", json()) == kNearest) {
+            parts.add({PartUse::Approximated,
+                       "samplers with NEAREST",
+                       0,
+                       {},
+                       "textures are filtered bilinearly",
+                       "",
+                       false},
+                      place);
+        }
+    });
 }
 
 void add_cameras(const GltfDocument& document, const json& source, PartList& parts) {
@@ -302,8 +277,7 @@ void add_cameras(const GltfDocument& document, const json& source, PartList& par
             note = str_cat("yfov ", number_at(element, "perspective/yfov", 0.0),
                            " is not between 0 and π radians");
         }
-        parts.add({PartUse::Ignored, "cameras", 0, {}, note, "", false},
-                  gltf_place("camera", i, camera.name));
+        parts.add_left_out("cameras", note, false, gltf_place("camera", i, camera.name));
     }
 }
 
@@ -322,14 +296,8 @@ void add_other_nodes(const GltfDocument& document, PartList& parts) {
     }
     for (size_t i = 0; i < document.nodes.size(); ++i) {
         if (is_reached[i]) continue;
-        parts.add({PartUse::Ignored,
-                   "nodes outside of the scene",
-                   0,
-                   {},
-                   "no node of the scene leads to them",
-                   "",
-                   false},
-                  gltf_place("node", i, document.nodes[i].name));
+        parts.add_left_out("nodes outside of the scene", "no node of the scene leads to them",
+                           false, gltf_place("node", i, document.nodes[i].name));
     }
 }
 

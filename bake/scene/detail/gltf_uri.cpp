@@ -42,9 +42,8 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
 }
 
-/// True if a file lies in the folder of `scene` or below. Both are paths without links.
-bool is_beside(const std::filesystem::path& file, const std::filesystem::path& scene) {
-    const std::filesystem::path folder = scene.parent_path();
+/// Both are paths without links.
+bool is_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
     return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
@@ -54,11 +53,11 @@ bool is_link_outside(const std::string& path, const std::string& scene_path) {
     std::error_code error;
     const auto file = std::filesystem::canonical(path, error);
     if (error) return false;  // what opens the file says that there is none
-    const auto scene = std::filesystem::canonical(scene_path, error);
-    if (!error && is_beside(file, scene)) return false;
     const std::string folder = folder_of(scene_path);
     const auto open_folder = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-    return error || !is_beside(file, open_folder / "scene");
+    if (!error && is_below(file, open_folder)) return false;
+    const auto scene = std::filesystem::canonical(scene_path, error);
+    return error || !is_below(file, scene.parent_path());
 }
 
 }  // namespace

@@ -10,41 +10,36 @@ std::string key_of(const ScenePart& part) {
     return str_cat(static_cast<uint32_t>(part.use), part.name, "\n", part.note);
 }
 
+/// The row of parts that are of too many kinds.
+const ScenePart& other_parts() {
+    static const ScenePart kOthers{
+        PartUse::Ignored, "other parts", 0, {}, "are of more kinds than are listed", "", true};
+    return kOthers;
+}
+
+void add_element(const std::string& element, ScenePart& part) {
+    if (part.elements.size() < ScenePart::kMaxElements) part.elements.push_back(element);
+}
+
 }  // namespace
 
 ScenePart& PartList::row(const ScenePart& part) {
-    if (parts_.size() == kMaxRows - 1 && !rows_.contains(key_of(part))) {
-        ScenePart others;
-        others.use = PartUse::Ignored;
-        others.name = "other parts";
-        others.note = "are of more kinds than are listed";
-        others.changes_light = true;
-        rows_.emplace(key_of(others), parts_.size());
-        parts_.push_back(others);
-    }
-    if (parts_.size() >= kMaxRows) {
-        const auto known = rows_.find(key_of(part));
-        return parts_[known == rows_.end() ? kMaxRows - 1 : known->second];
-    }
-    const auto [row, is_new] = rows_.emplace(key_of(part), parts_.size());
-    if (is_new) parts_.push_back(part);
+    const bool has_row = rows_.size() < kMaxRows || rows_.contains(key_of(part));
+    const ScenePart& kept = has_row ? part : other_parts();
+    const auto [row, is_new] = rows_.emplace(key_of(kept), parts_.size());
+    if (is_new) parts_.push_back(kept);
     return parts_[row->second];
 }
 
 void PartList::add(const ScenePart& part, const std::string& element) {
     ScenePart& added = row(part);
     ++added.count;
-    if (added.elements.size() < ScenePart::kMaxElements) added.elements.push_back(element);
+    add_element(element, added);
 }
 
 void PartList::add_left_out(const std::string& name, const std::string& note, bool changes_light,
                             const std::string& element) {
-    ScenePart part;
-    part.use = PartUse::Ignored;
-    part.name = name;
-    part.note = note;
-    part.changes_light = changes_light;
-    add(part, element);
+    add({PartUse::Ignored, name, 0, {}, note, "", changes_light}, element);
 }
 
 void PartList::add_count(ScenePart part, uint64_t count) {
@@ -52,7 +47,14 @@ void PartList::add_count(ScenePart part, uint64_t count) {
 }
 
 void PartList::append(const std::vector<ScenePart>& parts) {
-    parts_.insert(parts_.end(), parts.begin(), parts.end());
+    for (const ScenePart& part : parts) {
+        ScenePart empty = part;
+        empty.count = 0;
+        empty.elements.clear();
+        ScenePart& added = row(empty);
+        added.count += part.count;
+        for (const std::string& element : part.elements) add_element(element, added);
+    }
 }
 
 std::string part_warning(const ScenePart& part) {

@@ -24,10 +24,11 @@ class PartList {
     /// Adds many of a kind that have no names.
     void add_count(ScenePart part, uint64_t count);
 
-    /// Appends rows.
+    /// Adds the elements of rows.
     void append(const std::vector<ScenePart>& parts);
 
-    /// Rows of different names, uses or notes that are kept; more of them share one row.
+    /// Rows of different names, uses or notes that are kept; more of them share one row after
+    /// these.
     static constexpr size_t kMaxRows = 1000;
 
     /// Rows in the order in which they were begun.

@@ -240,7 +240,8 @@ TEST(GltfNodes, RejectsAHierarchyThatOverflows) {
 TEST(GltfNodes, RejectsARotationOfLength0) {
     GltfBuilder gltf;
     gltf.add_root({{"name", "door"}, {"rotation", {0, 0, 0, 0}}});
-    EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"door\": rotation (0, 0, 0, 0) is no rotation");
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"door\": rotation (0, 0, 0, 0) is a quaternion of length 0");
 }
 
 TEST(GltfNodes, SkinsAreLeftOutWithAWarning) {

@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
                "/materials/0/extensions",
                {{"KHR_materials_pbrSpecularGlossiness", {{"difuseFactor", {1, 1, 1, 1}}}}},
                "member \"difuseFactor\" of KHR_materials_pbrSpecularGlossiness (material 0 "
-               "\"paint\"): is no member that glTF 2.0 defines; did you mean \"diffuseFactor\"?"},
+               "\"paint\"): is not defined; did you mean \"diffuseFactor\"?"},
         Unread{"ExtrasOfALightBesideThem", "/extensions/KHR_lights_punctual/lights/0/radius", 0.5,
                "member \"radius\" of lights (light 0 \"bulb\"): is read of \"extras\" only; move "
                "it into "
@@ -181,8 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
         Unread{"MisspeltMember",
                "/materials/0/pbrMetallicRoughness",
                {{"baseColourFactor", {0, 0, 1, 1}}},
-               "member \"baseColourFactor\" of pbrMetallicRoughness (material 0 \"paint\"): is no "
-               "member that glTF 2.0 defines; did you mean \"baseColorFactor\"?"},
+               "member \"baseColourFactor\" of pbrMetallicRoughness (material 0 \"paint\"): is not "
+               "defined; did you mean \"baseColorFactor\"?"},
         Unread{"MemberOfAPartOfTheElement",
                "/materials/0/baseColorFactor",
                {0, 0, 1, 1},
@@ -192,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
                "member \"material\" of meshes (mesh 0): is a member of primitives; move it to "
                "primitives"},
         Unread{"MisspeltMemberOfALight", "/extensions/KHR_lights_punctual/lights/0/intensty", 5,
-               "member \"intensty\" of lights (light 0 \"bulb\"): is no member that glTF 2.0 "
-               "defines; did you mean \"intensity\"?"},
+               "member \"intensty\" of lights (light 0 \"bulb\"): is not defined; did you mean "
+               "\"intensity\"?"},
         Unread{"ExtensionBesideTheExtensions",
                "/materials/0/KHR_materials_emissive_strength",
                {{"emissiveStrength", 9}},
