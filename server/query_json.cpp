@@ -158,15 +158,18 @@ Query read_query(const std::string& body, QueryLists& lists) {
             str_cat("a query in JSON may have ", kMostJson, " bytes; the binary form takes more"),
             "body", str_cat(body.size(), " bytes")};
     }
-    ListTaker taker(lists);
-    // A callback makes the parser look through all elements of an array when an object in it ends.
+    // With a callback the parser looks through all elements of an array when an object in it ends.
     constexpr ptrdiff_t kMostObjects = 64;
-    const bool has_few_objects = std::ranges::count(body, '{') <= kMostObjects;
-    Json json = has_few_objects ? parse_object(body, std::ref(taker)) : parse_object(body);
-    const bool has_lists =
-        is_list(json, "positions") && (!has_normals(json) || is_list(json, "normals"));
-    if (!has_few_objects || !taker.has_only_triples() || !has_lists) {
-        if (has_few_objects) json = parse_object(body);
+    Json json;
+    bool has_taken_lists = false;
+    if (std::ranges::count(body, '{') <= kMostObjects) {
+        ListTaker taker(lists);
+        json = parse_object(body, std::ref(taker));
+        has_taken_lists = taker.has_only_triples() && is_list(json, "positions") &&
+                          (!has_normals(json) || is_list(json, "normals"));
+    }
+    if (!has_taken_lists) {
+        json = parse_object(body);
         read_lists(json, lists);
     }
     if (has_normals(json)) normalize(lists);
