@@ -15,6 +15,8 @@ import unittest
 COMMAND = os.environ["TETRALIGHT_COMMAND"]
 COURTYARD = os.environ["TETRALIGHT_COURTYARD"]
 BINARY = "application/octet-stream"
+# How long a bake may take: it gives way to all other programs of the machine.
+PATIENCE = 1200
 
 
 class Answer:
@@ -97,7 +99,7 @@ class Server:
         with open(self.log_path) as file:
             return [json.loads(line) for line in file.read().splitlines()]
 
-    def wait_for(self, bake, seconds=120):
+    def wait_for(self, bake, seconds=PATIENCE):
         """A bake that is over."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from faults import SHIM
-from service import COURTYARD, ServiceTest, lattice, write_groups, read
+from service import COURTYARD, PATIENCE, ServiceTest, lattice, write_groups, read
 
 # How often the server is killed: a few times, or as often as one likes.
 KILLS = int(os.environ.get("TETRALIGHT_KILLS", "5"))
@@ -45,13 +45,16 @@ class BakeTest(ServiceTest):
         return os.path.join(self.data, "bakes", bake, "results", "chunks")
 
     def wait_for_chunks(self, bake, count):
-        for _ in range(6000):  # a bake gives way to all other programs of the machine
+        chunks = []
+
+        def are_written():
+            nonlocal chunks
             if os.path.isdir(self.chunk_folder(bake)):
                 chunks = [c for c in os.listdir(self.chunk_folder(bake)) if c.endswith(".pack")]
-                if len(chunks) >= count:
-                    return chunks
-            time.sleep(0.02)
-        self.fail("no chunk was written")
+            return len(chunks) >= count
+
+        self.assertTrue(self.eventually(are_written, PATIENCE), "no chunk was written")
+        return chunks
 
     def wait_for_no_folders(self):
         """Folders go after the bake is said to be over, never before."""
