@@ -2,6 +2,7 @@
 #include <span>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/json/check_metadata.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
@@ -13,7 +14,6 @@
 #include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/volume_facts.h>
 #include <tetralight/pipeline/partial_bake.h>
-#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/build/wireframe.h>
 #include <tetralight/probes/probe_file.h>
 

@@ -5,6 +5,7 @@
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/half.h>
+#include <tetralight/base/json/check_metadata.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
@@ -14,7 +15,6 @@
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/relight_lightmaps.h>
 #include <tetralight/pipeline/lightmap_part.h>
-#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {

@@ -4,13 +4,13 @@
 #include <cstring>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/json/check_metadata.h>
 #include <tetralight/base/ktx2.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/table.h>
-#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/reflection/reflection_file.h>
 #include <tetralight/reflection/relight_reflections.h>
 

@@ -4,11 +4,11 @@
 #include <cstdlib>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/cli/backend_program.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/group_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/scene_reading.h>
-#include <tetralight/cli/tetgen_program.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/build/merge_warnings.h>
 #include <tetralight/probes/probe_file.h>
@@ -33,17 +33,18 @@ struct Tetrahedralize {
           common(values) {}
 
     [[nodiscard]] Result<Tetrahedralization> cells_over(const MergedProbes& probes) const {
-        if (backend == "cgal") return tetrahedralize(probes.positions, flat_tolerance(probes));
-        return tetrahedralize_with_tetgen(probes.positions, flat_tolerance(probes),
-                                          find_tetgen_program());
+        if (backend == "tetralight")
+            return tetrahedralize(probes.positions, flat_tolerance(probes));
+        return tetrahedralize_with_program(probes.positions, flat_tolerance(probes),
+                                           find_backend_program(backend));
     }
 
     /// An error of the program that joins probes, and why it was that one.
-    [[nodiscard]] static Error explained(const Error& error) {
-        const char* named = std::getenv(kTetgenVariable);
+    [[nodiscard]] Error explained(const Error& error) const {
+        const std::string variable = backend_variable(backend);
+        const char* named = std::getenv(variable.c_str());
         if (named == nullptr || *named == '\0') return error;
-        return {error.code,
-                error.message.suffixed(str_cat(" (", kTetgenVariable, " names the program)"))};
+        return {error.code, error.message.suffixed(str_cat(" (", variable, " names the program)"))};
     }
 
     [[nodiscard]] std::string metadata() const {

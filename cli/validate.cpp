@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <tetralight/base/json/check_metadata.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
@@ -15,7 +16,6 @@
 #include <tetralight/cli/walls_report.h>
 #include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/unseen_places.h>
-#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {

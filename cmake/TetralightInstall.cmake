@@ -3,13 +3,15 @@
 # find them) and the command. CPack makes a Debian package of the ship set (docs/embed.md).
 include(CMakePackageConfigHelpers)
 
-set(ship_modules base probes lppv lightmap reflection runtime)
+set(ship_modules base probes probes/delaunay probes/build lppv lightmap reflection runtime)
+string(REPLACE "/" "_" ship_components "${ship_modules}")
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tetralight)
 set(shader_folder ${CMAKE_INSTALL_DATADIR}/tetralight/shaders)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)
 
 foreach(module ${ship_modules})
-  install(TARGETS tetralight_${module} EXPORT tetralight
+  string(REPLACE "/" "_" target ${module})
+  install(TARGETS tetralight_${target} EXPORT tetralight
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   # Public headers include headers of detail/. The other folders in a module, for example lppv/vdb,
   # are not part of the ship set.
@@ -26,6 +28,11 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT dev
 # The command, and the page of `tetralight serve` if it is built.
 if(TARGET tetralight_cli)
   install(TARGETS tetralight_cli RUNTIME COMPONENT program)
+  foreach(program tetralight_cgal tetralight_tetgen)
+    if(TARGET ${program})
+      install(TARGETS ${program} RUNTIME COMPONENT program)
+    endif()
+  endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT program
           DESTINATION ${CMAKE_INSTALL_DATADIR}/tetralight/viewer)
 endif()
@@ -45,7 +52,7 @@ install(FILES ${PROJECT_BINARY_DIR}/tetralightConfig.cmake
         DESTINATION ${package_folder} COMPONENT dev)
 
 # pkg-config tetralight
-set(ship_libraries ${ship_modules})
+set(ship_libraries ${ship_components})
 list(REVERSE ship_libraries)
 list(TRANSFORM ship_libraries PREPEND "-ltetralight_")
 list(JOIN ship_libraries " " ship_libraries)

@@ -5,13 +5,13 @@
 #include <type_traits>
 
 #include <tetralight/base/hex.h>
+#include <tetralight/base/json/check_metadata.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/bake_members.h>
 #include <tetralight/pipeline/scene_choice_record.h>
 #include <tetralight/pipeline/value_record.h>
-#include <tetralight/probes/build/check_metadata.h>
 
 namespace tetralight {
 namespace {

@@ -20,7 +20,7 @@ namespace tetralight::detail {
 [[nodiscard]] Status check_sorted_names(std::string_view section, std::string_view names);
 
 /// UTF-8 without control characters other than the white space of JSON. Offline code checks that
-/// it is a JSON object (probes/build/check_metadata.h).
+/// it is a JSON object (base/json/check_metadata.h).
 [[nodiscard]] Status check_metadata_text(std::string_view metadata);
 
 }  // namespace tetralight::detail

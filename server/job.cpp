@@ -59,19 +59,19 @@ uint64_t processor_seconds_limit(const Settings& settings, const Job& job) {
     return static_cast<uint64_t>(job.limit_seconds + 1.0) * threads;
 }
 
-/// Where the program of `"backend": "tetgen"` may lie (docs/command.md).
-void add_tetgen(const std::string& program, std::vector<FileAccess>& files) {
+/// Where the program of a backend of `/v1/tetrahedralize` may lie (docs/command.md). `name`: with a
+/// slash before it. `named_by`: an environment variable.
+void add_backend(const std::string& program, const char* name, const char* named_by,
+                 std::vector<FileAccess>& files) {
     using Right = FileAccess::Right;
-    constexpr const char* kName = "/tetralight-tetgen";
-    if (const char* named = std::getenv("TETRALIGHT_TETGEN"))
-        files.push_back({named, Right::Execute});
-    files.push_back({program.substr(0, program.rfind('/')) + kName, Right::Execute});
+    if (const char* named = std::getenv(named_by)) files.push_back({named, Right::Execute});
+    files.push_back({program.substr(0, program.rfind('/')) + name, Right::Execute});
     const char* variable = std::getenv("PATH");
     std::string_view rest = variable == nullptr ? "" : variable;
     while (!rest.empty()) {
         const std::string_view folder = rest.substr(0, rest.find(':'));
         rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-        if (folder.starts_with('/')) files.push_back({str_cat(folder, kName), Right::Execute});
+        if (folder.starts_with('/')) files.push_back({str_cat(folder, name), Right::Execute});
     }
 }
 
@@ -80,7 +80,8 @@ std::vector<FileAccess> files_of_jobs(const std::string& program, const std::str
     if (kIsSanitized) return {};
     std::vector<FileAccess> files = program_files();
     files.push_back({executable.empty() ? program : executable, FileAccess::Right::Execute});
-    add_tetgen(program, files);
+    add_backend(program, "/tetralight-cgal", "TETRALIGHT_CGAL", files);
+    add_backend(program, "/tetralight-tetgen", "TETRALIGHT_TETGEN", files);
     files.push_back({".", FileAccess::Right::Read});
     files.push_back({kResults, FileAccess::Right::Write});
     return files;

@@ -18,11 +18,12 @@ constexpr Setting kSettings[] = {
     {.name = "backend",
      .type = Type::Choice,
      .help =
-         "cgal, or tetgen = the program tetralight-tetgen, found by $TETRALIGHT_TETGEN, in this "
-         "command's folder or in PATH; it may take 10 minutes, and sets of probes in a plane "
-         "or on a line do not need it",
-     .choices = "cgal tetgen",
-     .default_text = "cgal"}};
+         "What tetrahedralizes: tetralight = this command itself; cgal or tetgen, as a second "
+         "opinion = the program tetralight-cgal or tetralight-tetgen, found by $TETRALIGHT_CGAL "
+         "or $TETRALIGHT_TETGEN, in this command's folder or in PATH. A program may take 10 "
+         "minutes; sets of probes in a plane or on a line do not need it",
+     .choices = "tetralight cgal tetgen",
+     .default_text = "tetralight"}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Reading scenes", kScenePose},

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <tetralight/probes/build/detail/canonical_cells.h>
-#include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/delaunay.h>
 #include <tetralight/probes/build/detail/spread.h>
 

@@ -8,11 +8,10 @@
 #include <span>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/probes/build/check_metadata.h>
-#include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/spread.h>
 #include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/delaunay/exact_signs.h>
 #include <tetralight/probes/recombine.h>
 
 namespace tetralight {
@@ -50,7 +49,7 @@ class SpaceValidator {
     void check_tetrahedron(uint32_t cell) {
         const glm::dvec3 &a = corner(cell, 0), &b = corner(cell, 1);
         const glm::dvec3 &c = corner(cell, 2), &d = corner(cell, 3);
-        if (detail::orientation(a, b, c, d) <= 0) {
+        if (exact_orientation(a, b, c, d) <= 0) {
             ++report_.inverted_cells;
             return;
         }
@@ -59,7 +58,7 @@ class SpaceValidator {
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
             if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
-            report_.non_delaunay_faces += detail::is_in_circumsphere(a, b, c, d, other);
+            report_.non_delaunay_faces += exact_in_sphere(a, b, c, d, other) > 0;
         }
     }
 
@@ -72,7 +71,7 @@ class SpaceValidator {
             const uint32_t neighbor = volume_.cells[cell].neighbors[i];
             if (neighbor < cell) continue;
             const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
-            report_.concave_hull_edges += detail::orientation(a, b, c, other) > 0;
+            report_.concave_hull_edges += exact_orientation(a, b, c, other) > 0;
         }
     }
 
@@ -103,7 +102,7 @@ class PlaneValidator {
 
     void check_triangle(uint32_t cell) {
         const glm::dvec2 &a = corner(cell, 0), &b = corner(cell, 1), &c = corner(cell, 2);
-        if (detail::orientation(a, b, c) <= 0) {
+        if (exact_orientation(a, b, c) <= 0) {
             ++report_.inverted_cells;
             return;
         }
@@ -112,7 +111,7 @@ class PlaneValidator {
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
             if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec2& other = positions_[opposite_vertex(volume_, neighbor, cell)];
-            report_.non_delaunay_faces += detail::is_in_circumcircle(a, b, c, other);
+            report_.non_delaunay_faces += exact_in_circle(a, b, c, other) > 0;
         }
     }
 
@@ -122,7 +121,7 @@ class PlaneValidator {
         report_.measure_rounding += product_rounding(a - positions_[0], b - positions_[0]);
         const uint32_t next = volume_.cells[cell].neighbors[0];  // shares b
         const glm::dvec2& other = positions_[opposite_vertex(volume_, next, cell)];
-        report_.concave_hull_edges += detail::orientation(a, b, other) < 0;
+        report_.concave_hull_edges += exact_orientation(a, b, other) < 0;
     }
 
     const ProbeVolumeView& volume_;
@@ -261,7 +260,6 @@ std::vector<std::string> ValidationReport::problems() const {
         "probes' light is not the sum of their layers");
     add(torn_edges, "edge has different visibility in the cells around it",
         "edges have different visibility in the cells around them");
-    if (has_bad_metadata) lines.emplace_back("metadata is not a JSON object");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
         lines.push_back(str_cat("the cells fill ", cell_measure, " of the hull's ", hull_measure));
@@ -271,7 +269,6 @@ std::vector<std::string> ValidationReport::problems() const {
 
 ValidationReport validate(const ProbeVolumeView& volume) {
     ValidationReport report;
-    report.has_bad_metadata = !check_metadata(volume.metadata);
     const std::vector<glm::dvec3> positions = exact_positions(volume);
     if (volume.info.dimension == Dimension::Space) {
         check_cells(SpaceValidator(volume, positions, report), volume.cells.size());

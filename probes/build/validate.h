@@ -22,7 +22,6 @@ struct ValidationReport {
     uint32_t wrong_compact_probes = 0;    ///< halves are not the rounded floats
     uint32_t wrong_layer_sums = 0;        ///< light is not the weighted sum of the layers
     uint32_t torn_edges = 0;              ///< an edge has another code in another cell
-    bool has_bad_metadata = false;        ///< not one JSON object (`check_metadata`)
 
     /// Measure of all inner cells, and of the hull: m³; m² in a plane, m on a line.
     double cell_measure = 0.0;

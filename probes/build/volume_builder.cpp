@@ -15,8 +15,7 @@ namespace {
 
 /// `tetrahedralize` that reuses the tetrahedra of the last build. Flat sets have few probes and are
 /// built from scratch.
-Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
-                                       detail::DelaunayTetrahedra& kept) {
+Tetrahedralization tetrahedralize_next(const MergedProbes& probes, detail::KeptTetrahedra& kept) {
     const auto spread = detail::measure_spread(probes.positions, flat_tolerance(probes));
     if (spread.dimension == Dimension::Space) {
         std::vector<Cell> cells = kept.change_to(probes.positions);
@@ -28,7 +27,7 @@ Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
 }  // namespace
 
 struct VolumeBuilder::Kept {
-    detail::DelaunayTetrahedra tetrahedra;
+    detail::KeptTetrahedra tetrahedra;
 };
 
 VolumeBuilder::VolumeBuilder(const MergeSettings& settings)

@@ -147,7 +147,7 @@ def check_components(prefix):
 def check_folders(prefix):
     include = Path(prefix) / "include"
     folders = {str(header.parent.relative_to(include)) for header in include.rglob("*.h")}
-    modules = {"base", "probes", "lppv", "lightmap", "reflection", "runtime"}
+    modules = {"base", "probes", "probes/delaunay", "probes/build", "lppv", "lightmap", "reflection", "runtime"}
     allowed = {f"tetralight/{module}{detail}" for module in modules for detail in ("", "/detail")}
     assert {f"tetralight/{module}" for module in modules} <= folders <= allowed, folders
 

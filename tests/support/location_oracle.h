@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/delaunay/exact_signs.h>
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/locate.h>
 
@@ -62,7 +62,7 @@ class LocationOracle {
             std::array<glm::dvec3, 4> corners;
             for (int k = 0; k < 4; ++k) corners[k] = k == i ? p : corner(cell, k);
             const auto& [a, b, c, d] = corners;
-            if (detail::orientation(a, b, c, d) < 0) return false;
+            if (exact_orientation(a, b, c, d) < 0) return false;
         }
         return true;
     }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 
-#include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/tetrahedralize.h>
+#include <tetralight/probes/delaunay/exact_signs.h>
 
 namespace tetralight::test {
 
@@ -23,8 +23,8 @@ inline bool is_unique_delaunay(const Tetrahedralization& cells,
             const auto opposite = std::ranges::find(other.neighbors, i) - other.neighbors.begin();
             const glm::dvec3& e = positions[other.vertices[static_cast<size_t>(opposite)]];
             // Seen with the other orientation, inside is outside: this one is neither.
-            const bool is_inside = detail::is_in_circumsphere(a, b, c, d, e);
-            if (!is_inside && !detail::is_in_circumsphere(b, a, c, d, e)) return false;
+            const bool is_inside = exact_in_sphere(a, b, c, d, e) > 0;
+            if (!is_inside && exact_in_sphere(b, a, c, d, e) <= 0) return false;
         }
     }
     return true;

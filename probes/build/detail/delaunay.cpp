@@ -1,205 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links CGAL 3D triangulations (GPL-3.0-or-later).
 #include <tetralight/probes/build/detail/delaunay.h>
-
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <numeric>
+#include <limits>
+#include <new>
 #include <utility>
 
 #include <tetralight/probes/build/detail/cell_sorter.h>
 #include <tetralight/probes/build/detail/position_table.h>
+#include <tetralight/probes/delaunay/delaunay_triangles.h>
 
 namespace tetralight::detail {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel>;
-using CellBase =
-    CGAL::Triangulation_cell_base_with_info_3<uint32_t, Kernel,
-                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-using Delaunay =
-    CGAL::Delaunay_triangulation_3<Kernel,
-                                   CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-using Vertex = Delaunay::Vertex_handle;
-
-Kernel::Point_3 point(const glm::dvec3& p) {
-    return {p.x, p.y, p.z};
+/// If memory is short, does what containers do: `operator new` throws, or what the program has set.
+void require(const Status& status) {
+    if (!status) ::operator delete(::operator new(std::numeric_limits<ptrdiff_t>::max()));
 }
 
-/// A random number that depends on `i` alone.
-uint32_t hash(uint32_t i) {
-    i = (i ^ i >> 16) * 0x7feb352du;
-    i = (i ^ i >> 15) * 0x846ca68bu;
-    return i ^ i >> 16;
-}
-
-/// Rounds of insertion, each a random quarter of the positions of the next, in the order in which
-/// the positions come: "biased randomized insertion order" (Amenta, Choi & Rote 2003).
-std::vector<uint32_t> insertion_order(size_t count) {
-    constexpr int kRounds = 12;
-    std::vector<uint8_t> rounds(count);
-    std::array<uint32_t, kRounds + 1> begins{};
-    for (uint32_t i = 0; i < count; ++i) {
-        const int level = std::min(std::countr_zero(hash(i)) / 2, kRounds - 1);
-        rounds[i] = static_cast<uint8_t>(kRounds - 1 - level);
-        ++begins[rounds[i] + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<uint32_t> order(count);
-    for (uint32_t i = 0; i < count; ++i) order[begins[rounds[i]]++] = i;
-    return order;
-}
-
-/// Inserts all positions into an empty triangulation and gives their vertices.
-std::vector<Vertex> triangulate(Delaunay& delaunay, std::span<const glm::dvec3> positions) {
-    std::vector<Vertex> vertices(positions.size());
-    Delaunay::Cell_handle near;
-    for (const uint32_t i : insertion_order(positions.size())) {
-        vertices[i] = delaunay.insert(point(positions[i]), near);
-        vertices[i]->info() = i;
-        near = vertices[i]->cell();
-    }
-    return vertices;
-}
-
-void prefetch_vertices(const Delaunay::Cell& cell) {
-    for (int i = 0; i < 4; ++i) __builtin_prefetch(&cell.vertex(i)->info());
-}
-
-void prefetch_neighbors(const Delaunay::Cell& cell) {
-    for (int i = 0; i < 4; ++i) __builtin_prefetch(&cell.neighbor(i)->info());
-}
-
-/// Calls `visit` for every cell and, some cells earlier, `prefetch`: the cells stand in no order
-/// that has their vertices and neighbors in the cache.
-template <class Prefetch, class Visit>
-void for_each_cell(Delaunay& delaunay, const Prefetch& prefetch, const Visit& visit) {
-    constexpr int kAhead = 12;
-    auto& cells = delaunay.tds().cells();
-    auto ahead = cells.begin();
-    for (int i = 0; i < kAhead && ahead != cells.end(); ++i) prefetch(*ahead++);
-    for (auto cell = cells.begin(); cell != cells.end(); ++cell) {
-        if (ahead != cells.end()) prefetch(*ahead++);
-        visit(cell);
-    }
-}
-
-/// Numbers the finite cells 0.., the infinite ones kNoIndex, and counts the finite ones.
-uint32_t count_cells(Delaunay& delaunay, CellSorter& sorter) {
+/// The finite cells in canonical order. `index_of(vertex)`: of its position.
+template <class IndexOf>
+std::vector<Cell> sorted_cells(std::span<const DelaunayCell> cells, size_t position_count,
+                               const IndexOf& index_of) {
+    CellSorter sorter(position_count);
+    // The number of each cell among the finite ones, and kNoIndex for others.
+    std::vector<uint32_t> numbers(cells.size(), kNoIndex);
     uint32_t finite_count = 0;
-    for_each_cell(delaunay, prefetch_vertices, [&](const auto& cell) {
-        std::array<uint32_t, 4> v;
-        for (int i = 0; i < 4; ++i) v[i] = cell->vertex(i)->info();
-        const auto [first, last] = std::ranges::minmax(v);
-        cell->info() = last == kNoIndex ? kNoIndex : finite_count++;
-        if (last != kNoIndex) sorter.count(first);
-    });
-    return finite_count;
-}
-
-void add_cells(Delaunay& delaunay, CellSorter& sorter) {
-    const auto prefetch = [](const Delaunay::Cell& cell) {
-        prefetch_vertices(cell);
-        prefetch_neighbors(cell);
-    };
-    for_each_cell(delaunay, prefetch, [&](const auto& cell) {
-        if (cell->info() == kNoIndex) return;
+    size_t ghost_count = 0;
+    for (size_t i = 0; i < cells.size(); ++i) {
+        if (!cells[i].is_finite()) {
+            ghost_count += cells[i].is_free() ? 0 : 1;
+            continue;
+        }
+        numbers[i] = finite_count++;
+        const auto& [a, b, c, d] = cells[i].vertices;
+        sorter.count(std::min({index_of(a), index_of(b), index_of(c), index_of(d)}));
+    }
+    sorter.reserve_places(ghost_count);
+    for (const DelaunayCell& cell : cells) {
+        if (!cell.is_finite()) continue;
         std::array<uint64_t, 4> corners;
-        for (int i = 0; i < 4; ++i) {
-            corners[i] = make_corner(cell->vertex(i)->info(), cell->neighbor(i)->info());
+        for (size_t i = 0; i < 4; ++i) {
+            corners[i] = make_corner(index_of(cell.vertices[i]), numbers[cell.neighbors[i] / 4]);
         }
         sorter.add(make_sorted_cell(corners, 4));
-    });
-}
-
-/// The finite cells in canonical order.
-std::vector<Cell> sorted_cells(Delaunay& delaunay) {
-    delaunay.infinite_vertex()->info() = kNoIndex;
-    CellSorter sorter(delaunay.number_of_vertices());
-    const uint32_t finite_count = count_cells(delaunay, sorter);
-    sorter.reserve_places(delaunay.number_of_cells() - finite_count);
-    add_cells(delaunay, sorter);
+    }
     return sorter.finish();
 }
 
 }  // namespace
 
-struct DelaunayTetrahedra::State {
-    Delaunay delaunay;
-    std::vector<glm::dvec3> positions;
-    std::vector<Vertex> vertices;  // one a position
-
-    void insert_missing(std::span<const glm::dvec3> wanted, std::vector<Vertex>& found);
-    bool change_to(std::span<const glm::dvec3> wanted);
-};
-
-/// Each position next to the one before it, which is near it.
-void DelaunayTetrahedra::State::insert_missing(std::span<const glm::dvec3> wanted,
-                                               std::vector<Vertex>& found) {
-    Delaunay::Cell_handle near;
-    for (uint32_t i = 0; i < wanted.size(); ++i) {
-        if (found[i] == Vertex()) found[i] = delaunay.insert(point(wanted[i]), near);
-        found[i]->info() = i;
-        near = found[i]->cell();
-    }
+std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
+    return KeptTetrahedra().change_to(positions);
 }
 
-/// Changes the triangulation to other positions unless building it from scratch takes less time.
-bool DelaunayTetrahedra::State::change_to(std::span<const glm::dvec3> wanted) {
-    const PositionTable table(positions);
-    std::vector<Vertex> found(wanted.size());
-    size_t kept_count = 0;
-    for (size_t i = 0; i < wanted.size(); ++i) {
-        const uint32_t old = table.find(wanted[i]);
-        if (old == kNoIndex) continue;
-        found[i] = std::exchange(vertices[old], Vertex());
-        ++kept_count;
+std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
+    DelaunayTriangles triangles;
+    require(triangles.make(positions));
+    const auto cells = triangles.cells();
+    std::vector<uint32_t> numbers(cells.size(), kNoIndex);
+    uint32_t count = 0;
+    for (size_t i = 0; i < cells.size(); ++i) {
+        if (!cells[i].is_ghost()) numbers[i] = count++;
     }
-    // In units of one insertion of many.
-    constexpr size_t kInsertionCost = 2;
-    constexpr size_t kRemovalCost = 8;
-    const size_t cost = kInsertionCost * (wanted.size() - kept_count) +
-                        kRemovalCost * (positions.size() - kept_count);
-    if (cost > wanted.size()) return false;
+    std::vector<Cell> result;
+    result.reserve(count);
+    for (const DelaunayTriangle& triangle : cells) {
+        if (triangle.is_ghost()) continue;
+        Cell& cell = result.emplace_back();
+        for (size_t i = 0; i < 3; ++i) {
+            cell.vertices[i] = triangle.vertices[i];
+            cell.neighbors[i] = numbers[triangle.neighbors[i] / 4];
+        }
+    }
+    return result;
+}
 
-    insert_missing(wanted, found);
-    for (const Vertex& vertex : vertices) {
-        if (vertex != Vertex()) delaunay.remove(vertex);
+/// Changes the tetrahedra to other positions unless making them anew takes less time.
+bool KeptTetrahedra::has_changed_to(std::span<const glm::dvec3> wanted) {
+    const PositionTable table(positions_);
+    std::vector<uint32_t> found(wanted.size(), kNoIndex);
+    std::vector<glm::dvec3> added;
+    std::vector<uint32_t> places;
+    for (uint32_t i = 0; i < wanted.size(); ++i) {
+        const uint32_t old = table.find(wanted[i]);
+        if (old != kNoIndex) {
+            found[i] = std::exchange(vertices_[old], kNoIndex);
+        } else {
+            added.push_back(wanted[i]);
+            places.push_back(i);
+        }
     }
-    vertices = std::move(found);
-    positions.assign(wanted.begin(), wanted.end());
+    std::vector<uint32_t> removed;
+    std::ranges::copy_if(vertices_, std::back_inserter(removed),
+                         [](uint32_t vertex) { return vertex != kNoIndex; });
+    if (added.size() + removed.size() > wanted.size() / 2) return false;
+    require(tetrahedra_.remove(removed));
+    std::vector<uint32_t> numbers(added.size());
+    require(tetrahedra_.insert(added, numbers));
+    for (size_t i = 0; i < places.size(); ++i) found[places[i]] = numbers[i];
+    vertices_ = std::move(found);
+    positions_.assign(wanted.begin(), wanted.end());
     return true;
 }
 
-DelaunayTetrahedra::DelaunayTetrahedra() : state_(std::make_unique<State>()) {}
-
-DelaunayTetrahedra::~DelaunayTetrahedra() = default;
-DelaunayTetrahedra::DelaunayTetrahedra(DelaunayTetrahedra&&) noexcept = default;
-DelaunayTetrahedra& DelaunayTetrahedra::operator=(DelaunayTetrahedra&&) noexcept = default;
-
-std::vector<Cell> DelaunayTetrahedra::change_to(std::span<const glm::dvec3> positions) {
-    if (!state_->change_to(positions)) {
-        *state_ = State();
-        state_->vertices = triangulate(state_->delaunay, positions);
-        state_->positions.assign(positions.begin(), positions.end());
+std::vector<Cell> KeptTetrahedra::change_to(std::span<const glm::dvec3> positions) {
+    if (!has_changed_to(positions)) {
+        *this = KeptTetrahedra();
+        vertices_.resize(positions.size());
+        require(tetrahedra_.insert(positions, vertices_));
+        positions_.assign(positions.begin(), positions.end());
     }
-    if (state_->delaunay.dimension() < 3) return {};
-    return sorted_cells(state_->delaunay);
-}
-
-std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
-    Delaunay delaunay;
-    triangulate(delaunay, positions);
-    if (delaunay.dimension() < 3) return {};
-    return sorted_cells(delaunay);
+    if (tetrahedra_.cells().empty()) return {};
+    std::vector<uint32_t> indices(tetrahedra_.last_vertex() + 1, kNoIndex);
+    for (uint32_t i = 0; i < vertices_.size(); ++i) indices[vertices_[i]] = i;
+    return sorted_cells(tetrahedra_.cells(), positions.size(),
+                        [&](uint32_t vertex) { return indices[vertex]; });
 }
 
 }  // namespace tetralight::detail

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/build/validate.h>
 
 #include <gtest/gtest.h>
@@ -43,21 +42,6 @@ TEST(Validate, SeesATurnedTetrahedron) {
     std::swap(volume.cells[5].vertices[0], volume.cells[5].vertices[1]);
     std::swap(volume.cells[5].neighbors[0], volume.cells[5].neighbors[1]);
     EXPECT_EQ(validate(volume.view()).inverted_cells, 1u);
-}
-
-TEST(Validate, SeesMetadataThatIsNoJsonObject) {
-    ProbeVolume volume = test::make_lit_volume(test::random_positions(50, 3));
-    for (const char* sound : {"", "{}", " {\"samples\":16,\"a\":[1,{}]}\n"}) {
-        volume.metadata = sound;
-        EXPECT_TRUE(validate(volume.view()).problems().empty()) << sound;
-    }
-    for (const std::string& bad :
-         {std::string("[]"), std::string("{\"samples\":16"), std::string(200000, '[')}) {
-        volume.metadata = bad;
-        EXPECT_TRUE(validate(volume.view()).has_bad_metadata);
-        EXPECT_EQ(validate(volume.view()).problems().size(), 1u);
-        EXPECT_EQ(check_metadata(bad).error().code, ErrorCode::Corrupt);
-    }
 }
 
 TEST(Validate, SeesALostProbe) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/delaunay/exact_signs.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight::detail {
@@ -62,11 +62,11 @@ TEST(SnapToLattice, LinesAndPlanesAreExactlyStraight) {
     const auto at = [&](int x, int y, int z) { return p[x + kSide * (y + kSide * z)]; };
     for (int i = 2; i < kSide; ++i) {
         // Coplanar with any fourth position = collinear.
-        EXPECT_EQ(orientation(at(0, 3, 4), at(1, 3, 4), at(i, 3, 4), at(5, 7, 1)), 0);
-        EXPECT_EQ(orientation(at(3, 0, 4), at(3, 1, 4), at(3, i, 4), at(5, 7, 1)), 0);
-        EXPECT_EQ(orientation(at(3, 4, 0), at(3, 4, 1), at(3, 4, i), at(5, 7, 1)), 0);
-        EXPECT_EQ(orientation(at(i, 0, 0), at(0, i, 0), at(i - 1, i, 0), at(7, 7, 0)), 0);
-        EXPECT_EQ(orientation(at(i, 2, 0), at(0, 2, i), at(i - 1, 2, i), at(7, 2, 7)), 0);
+        EXPECT_EQ(exact_orientation(at(0, 3, 4), at(1, 3, 4), at(i, 3, 4), at(5, 7, 1)), 0);
+        EXPECT_EQ(exact_orientation(at(3, 0, 4), at(3, 1, 4), at(3, i, 4), at(5, 7, 1)), 0);
+        EXPECT_EQ(exact_orientation(at(3, 4, 0), at(3, 4, 1), at(3, 4, i), at(5, 7, 1)), 0);
+        EXPECT_EQ(exact_orientation(at(i, 0, 0), at(0, i, 0), at(i - 1, i, 0), at(7, 7, 0)), 0);
+        EXPECT_EQ(exact_orientation(at(i, 2, 0), at(0, 2, i), at(i - 1, 2, i), at(7, 2, 7)), 0);
     }
 }
 
@@ -76,7 +76,7 @@ TEST(SnapToLattice, LatticesTurnedAlikeKeepCommonPlanes) {
     const Positions second = test::moved(test::lattice(9, 0.0, 0), {0.7, 0.6, 0.9}, {4.1, -2, 0.3});
     Positions a = test::turned(first, 0.7), b = test::turned(second, 0.7);
     ASSERT_TRUE(snap_to_lattice(a) && snap_to_lattice(b));
-    for (size_t i = 0; i < 81; ++i) EXPECT_EQ(orientation(a[0], a[5], a[35], b[i]), 0);
+    for (size_t i = 0; i < 81; ++i) EXPECT_EQ(exact_orientation(a[0], a[5], a[35], b[i]), 0);
 }
 
 TEST(SnapToLattice, LeavesExactLatticesThatAreNotRectangular) {
@@ -94,19 +94,20 @@ TEST(SnapToLattice, FineLatticesFarAwayKeepTheirShape) {
     const auto longest = snap_to_lattice(p);
     ASSERT_TRUE(longest);
     EXPECT_LE(*longest, 1e-6);
-    EXPECT_EQ(orientation(p[0], p[7], p[63], p[56]), 0);
-    EXPECT_EQ(orientation(p[0], p[1], p[5], p[300]), 0);
+    EXPECT_EQ(exact_orientation(p[0], p[7], p[63], p[56]), 0);
+    EXPECT_EQ(exact_orientation(p[0], p[1], p[5], p[300]), 0);
 }
 
 TEST(SnapToLattice, KnowsFlatAndStraightLattices) {
     const Positions cube = test::lattice(9, 0.0, 0);
     Positions plane = test::turned(Positions(cube.begin(), cube.begin() + 81), 0.7);
     ASSERT_TRUE(snap_to_lattice(plane));
-    for (const glm::dvec3& p : plane) EXPECT_EQ(orientation(plane[0], plane[8], plane[80], p), 0);
+    for (const glm::dvec3& p : plane)
+        EXPECT_EQ(exact_orientation(plane[0], plane[8], plane[80], p), 0);
     Positions line = test::turned(Positions(cube.begin(), cube.begin() + 9), 0.7);
     ASSERT_TRUE(snap_to_lattice(line));
     for (const glm::dvec3& p : line) {
-        EXPECT_EQ(orientation(line[0], line[8], p, glm::dvec3(5, -3, 1)), 0);
+        EXPECT_EQ(exact_orientation(line[0], line[8], p, glm::dvec3(5, -3, 1)), 0);
     }
 }
 

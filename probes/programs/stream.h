@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <type_traits>
 
-// What Tetralight and its child `tetralight-tetgen` say to each other. Little-endian, packed:
+// What Tetralight and a program that tetrahedralizes for it (`tetralight-cgal`,
+// `tetralight-tetgen`) say to each other. Little-endian, packed:
 //
 //     stdin    StreamHeader{kPositionsMagic, count}, then `count` positions, 3 doubles each
 //     stdout   StreamHeader{kTetrahedraMagic, count}, then `count` StreamTetrahedron
@@ -14,7 +15,7 @@
 //
 // The last letter of the magics is the version of both records.
 
-namespace tetralight::tetgen {
+namespace tetralight::programs {
 
 using StreamMagic = std::array<char, 8>;
 
@@ -40,4 +41,4 @@ static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(StreamHeader) == 16 && std::is_trivially_copyable_v<StreamHeader>);
 static_assert(sizeof(StreamTetrahedron) == 32 && std::is_trivially_copyable_v<StreamTetrahedron>);
 
-}  // namespace tetralight::tetgen
+}  // namespace tetralight::programs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TetGen and CGAL over the same probes.
+// Our tetrahedra, and those of CGAL and TetGen, over the same probes.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -9,15 +9,17 @@
 #include <set>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/probes/build/tetgen.h>
+#include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/programs/tetrahedralize_with_program.h>
 #include "tests/support/probe_families.h"
 #include "tests/support/unique_delaunay.h"
 
 namespace tetralight {
 namespace {
 
-const TetgenProgram kTetgen{TETRALIGHT_TETGEN_PROGRAM};
+const TetrahedraProgram kCgal{TETRALIGHT_CGAL_PROGRAM};
+const TetrahedraProgram kTetgen{TETRALIGHT_TETGEN_PROGRAM};
 
 MergedProbes merged(std::vector<glm::dvec3> positions) {
     ProbeGroup group;
@@ -26,11 +28,15 @@ MergedProbes merged(std::vector<glm::dvec3> positions) {
     return *merge(std::span(&group, 1));
 }
 
-/// Holds that both give the same volume, or, where there are several, equally good ones.
+/// Holds that CGAL gives our volume, and TetGen too, or, where there are several, an equally good
+/// one.
 void expect_agreement(const MergedProbes& probes) {
     const auto ours = tetrahedralize(probes.positions, flat_tolerance(probes));
+    const auto cgals = tetrahedralize_with_program(probes.positions, flat_tolerance(probes), kCgal);
+    ASSERT_TRUE(cgals) << error_text(cgals.error());
+    EXPECT_TRUE(*cgals == ours);
     const auto theirs =
-        tetrahedralize_with_tetgen(probes.positions, flat_tolerance(probes), kTetgen);
+        tetrahedralize_with_program(probes.positions, flat_tolerance(probes), kTetgen);
     ASSERT_TRUE(theirs) << error_text(theirs.error());
     ASSERT_EQ(theirs->dimension, ours.dimension);
     if (ours.dimension != Dimension::Space || test::is_unique_delaunay(ours, probes.positions)) {
@@ -102,9 +108,9 @@ std::vector<test::ProbeFamily> all_families() {
     return families;
 }
 
-class TetgenFamilies : public testing::TestWithParam<size_t> {};
+class Families : public testing::TestWithParam<size_t> {};
 
-TEST_P(TetgenFamilies, AgreeWithCgal) {
+TEST_P(Families, AgreeWithOthers) {
     const test::ProbeFamily family = all_families()[GetParam()];
     for (uint64_t seed = 1; seed <= 10; ++seed) {
         SCOPED_TRACE(family.name + " " + std::to_string(seed));
@@ -112,7 +118,7 @@ TEST_P(TetgenFamilies, AgreeWithCgal) {
     }
 }
 
-TEST(TetgenBackends, AgreeOnSubsetsOfASmallGrid) {
+TEST(Programs, AgreeOnSubsetsOfASmallGrid) {
     EXPECT_TRUE(rc::check([](const std::set<uint8_t>& places) {
         std::vector<glm::dvec3> positions;
         for (const uint8_t place : places) {
@@ -122,16 +128,16 @@ TEST(TetgenBackends, AgreeOnSubsetsOfASmallGrid) {
     }));
 }
 
-TEST(TetgenBackends, AgreeOnManyProbes) {
+TEST(Programs, AgreeOnManyProbes) {
     expect_agreement(merged(test::random_positions(30'000, 1, 100.0)));
 }
 
-TEST(TetgenBackends, AgreeOnThinNeedlesOrSayThatTetGenFailed) {
+TEST(Programs, AgreeOnThinNeedlesOrSayThatTetGenFailed) {
     for (const double width : {1e-8, 1e-10, 1e-12, 1e-13, 1e-14}) {
         for (uint64_t seed = 1; seed <= 10; ++seed) {
             const auto needle = test::turned(
                 test::moved(test::random_positions(300, seed), {1, width, width}, {}), 1.0);
-            const auto theirs = tetrahedralize_with_tetgen(needle, 0.0, kTetgen);
+            const auto theirs = tetrahedralize_with_program(needle, 0.0, kTetgen);
             if (theirs) {
                 EXPECT_EQ(*theirs, tetrahedralize(needle));
             } else {
@@ -142,8 +148,7 @@ TEST(TetgenBackends, AgreeOnThinNeedlesOrSayThatTetGenFailed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, TetgenFamilies, testing::Range<size_t>(0, all_families().size()),
-    [](const auto& instance) {
+    All, Families, testing::Range<size_t>(0, all_families().size()), [](const auto& instance) {
         std::string name = all_families()[instance.param].name;
         std::ranges::replace_if(
             name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/detail/check_tetrahedra.h>
+#include <tetralight/probes/build/check_tetrahedra.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/check_metadata.h>
+#include <tetralight/base/json/check_metadata.h>
 
 #include <tetralight/base/json/json_text.h>
 

@@ -1,51 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/tetgen.h>
+#include <tetralight/probes/programs/tetrahedralize_with_program.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/probes/build/detail/cgal.h>
-#include <tetralight/probes/build/detail/check_tetrahedra.h>
-#include <tetralight/probes/build/detail/spread.h>
-#include <tetralight/probes/build/tetgen/stream.h>
+#include <tetralight/probes/build/check_tetrahedra.h>
+#include <tetralight/probes/programs/stream.h>
 
 namespace tetralight {
 namespace {
 
-using tetgen::StreamHeader;
-using tetgen::StreamTetrahedron;
+using programs::StreamHeader;
+using programs::StreamTetrahedron;
 
 using Bytes = std::span<const std::byte>;
 
 static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
-static_assert(sizeof(Cell) == sizeof(StreamTetrahedron) && tetgen::kStreamNoNeighbor == kNoIndex);
-
-/// The position with the largest measure.
-template <class Measure>
-const glm::dvec3& farthest(std::span<const glm::dvec3> positions, Measure measure) {
-    return *std::ranges::max_element(positions, {}, measure);
-}
-
-/// Exact: true if four of the positions span a tetrahedron.
-bool has_tetrahedron(std::span<const glm::dvec3> positions) {
-    const glm::dvec3& a = positions[0];
-    const glm::dvec3& b =
-        farthest(positions, [&](const glm::dvec3& p) { return glm::distance(p, a); });
-    const glm::dvec3& c = farthest(
-        positions, [&](const glm::dvec3& p) { return glm::length(glm::cross(p - a, b - a)); });
-    return std::ranges::any_of(
-        positions, [&](const glm::dvec3& d) { return detail::orientation(a, b, c, d) != 0; });
-}
-
-bool is_flat(std::span<const glm::dvec3> positions, double flatness) {
-    return detail::measure_spread(positions, flatness).dimension != Dimension::Space ||
-           !has_tetrahedron(positions);
-}
+static_assert(sizeof(Cell) == sizeof(StreamTetrahedron) && programs::kStreamNoNeighbor == kNoIndex);
 
 /// The header of the output. Precondition: it is long enough.
 StreamHeader header_of(Bytes output) {
@@ -56,8 +31,8 @@ StreamHeader header_of(Bytes output) {
 
 /// Returns corrupt if output that begins like this cannot hold tetrahedra of so many positions.
 Status check_output(Bytes output, uint64_t position_count) {
-    const size_t magic_size = std::min(output.size(), tetgen::kTetrahedraMagic.size());
-    if (std::memcmp(output.data(), tetgen::kTetrahedraMagic.data(), magic_size) != 0) {
+    const size_t magic_size = std::min(output.size(), programs::kTetrahedraMagic.size());
+    if (std::memcmp(output.data(), programs::kTetrahedraMagic.data(), magic_size) != 0) {
         return Error{ErrorCode::Corrupt, "its output has an unknown format or version"};
     }
     if (output.size() < sizeof(StreamHeader)) return Ok{};
@@ -106,12 +81,13 @@ Error failure_of(const ProcessCommand& command, const ProcessResult& result) {
 
 }  // namespace
 
-Result<Tetrahedralization> tetrahedralize_with_tetgen(std::span<const glm::dvec3> positions,
-                                                      double flatness,
-                                                      const TetgenProgram& program) {
-    if (is_flat(positions, flatness)) return tetrahedralize(positions, flatness);
+Result<Tetrahedralization> tetrahedralize_with_program(std::span<const glm::dvec3> positions,
+                                                       double flatness,
+                                                       const TetrahedraProgram& program) {
+    auto ours = tetrahedralize(positions, flatness);
+    if (ours.dimension != Dimension::Space) return ours;
 
-    const StreamHeader header{tetgen::kPositionsMagic, positions.size()};
+    const StreamHeader header{programs::kPositionsMagic, positions.size()};
     const std::array<Bytes, 2> input{std::as_bytes(std::span(&header, 1)),
                                      std::as_bytes(positions)};
     const ProcessCommand command{
@@ -125,7 +101,7 @@ Result<Tetrahedralization> tetrahedralize_with_tetgen(std::span<const glm::dvec3
     if (!process->succeeded()) return failure_of(command, *process);
     auto cells = cells_of(process->output);
     if (!cells) return cells.error().in(command.name());
-    auto result = detail::check_tetrahedra(std::move(*cells), positions);
+    auto result = check_tetrahedra(std::move(*cells), positions);
     if (!result) return result.error().in(command.name());
     return result;
 }

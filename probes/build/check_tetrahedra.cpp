@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/detail/check_tetrahedra.h>
+#include <tetralight/probes/build/check_tetrahedra.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <tetralight/probes/build/detail/canonical_cells.h>
 #include <tetralight/probes/build/validate.h>
 
-namespace tetralight::detail {
+namespace tetralight {
 namespace {
 
 using Triangle = std::array<uint32_t, 3>;
@@ -124,7 +124,7 @@ Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
     if (auto status = check_neighbors(tetrahedra); !status) return status.error();
     if (auto status = check_all_used(tetrahedra, positions.size()); !status) return status.error();
 
-    auto cells = canonical_cells(std::move(tetrahedra), Dimension::Space);
+    auto cells = detail::canonical_cells(std::move(tetrahedra), Dimension::Space);
     if (cells.cells.size() == cells.inner_cell_count || !is_one_sphere(cells, positions.size())) {
         return Error{ErrorCode::Corrupt, "the hull is not closed"};
     }
@@ -132,4 +132,4 @@ Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
     return cells;
 }
 
-}  // namespace tetralight::detail
+}  // namespace tetralight

@@ -8,7 +8,7 @@
 #include <tetralight/base/result.h>
 #include <tetralight/probes/build/tetrahedralize.h>
 
-namespace tetralight::detail {
+namespace tetralight {
 
 /// `canonical_cells` of tetrahedra from another program, if they are a Delaunay tetrahedralization
 /// of the positions. Their indices are not trusted; kNoIndex neighbors are outside the hull.
@@ -19,4 +19,4 @@ namespace tetralight::detail {
 [[nodiscard]] Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
                                                           std::span<const glm::dvec3> positions);
 
-}  // namespace tetralight::detail
+}  // namespace tetralight
