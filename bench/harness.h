@@ -77,6 +77,8 @@ void require(bool is_right, const std::string& what);
 [[nodiscard]] ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions);
 
 void bench_bake(const Options& options);
+/// Tetrahedra alone against CGAL's.
+void bench_delaunay(const Options& options);
 /// Direction sets against random directions.
 void bench_direction_sets();
 /// Adding and removing a group, as fractions of a full build.

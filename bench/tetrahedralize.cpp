@@ -92,6 +92,7 @@ void slivers(int side) {
 }  // namespace
 
 void bench_tetrahedralize(const Options& options) {
+    bench_delaunay(options);
     build("10k", random_positions(10'000, 1, 1.0), options);
     build("100k", random_positions(100'000, 2, 1.0), options);
     bytes_per_probe();

@@ -9,9 +9,9 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
-#include <tetralight/probes/build/detail/hilbert_order.h>
 #include <tetralight/probes/build/detail/snap_to_lattice.h>
 #include <tetralight/probes/build/detail/weld.h>
+#include <tetralight/probes/build/hilbert_order.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 
@@ -69,7 +69,7 @@ Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
 void weld_sources(std::span<const glm::dvec3> positions, double tolerance, MergedProbes& merged) {
     std::vector<glm::dvec3> distinct;
     distinct.reserve(positions.size());
-    for (const uint32_t i : detail::hilbert_order(positions)) {
+    for (const uint32_t i : hilbert_order(positions)) {
         if (distinct.empty() || distinct.back() != positions[i]) distinct.push_back(positions[i]);
         merged.sources[i].probe = static_cast<uint32_t>(distinct.size() - 1);
     }

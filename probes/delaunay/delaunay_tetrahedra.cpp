@@ -20,6 +20,13 @@ using glm::dvec3;
 /// from outside.
 constexpr uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+/// Longer walks look for cells in conflict on their way, which are any of the cavity: where cells
+/// are long and thin, one is met long before the cell around the position.
+constexpr uint32_t kShortWalk = 4;
+
+/// Steps from ghost to ghost at most: what is nearer is not always reached.
+constexpr uint32_t kMostGhosts = 32;
+
 Error out_of_memory() {
     return {ErrorCode::OutOfResources, "there is not enough memory for the tetrahedra"};
 }
@@ -168,14 +175,43 @@ int DelaunayTetrahedra::side(const DelaunayCell& cell, uint32_t corner,
     return predicates_.orientation(*p[0], *p[1], *p[2], *p[3]);
 }
 
-/// Walks from the last cell to the tetrahedron that contains a position, or to a ghost whose
-/// triangle sees it. A walk that crosses any triangle that has the position beyond it ends: the
-/// tetrahedra are Delaunay (Devillers, Pion and Teillaud, "Walking in a triangulation", 2002).
+/// Goes over the hull from a ghost to others whose triangle is nearer to a position: where sets are
+/// surfaces, the cells under it are long and thin, and a walk through them takes many steps.
+uint32_t DelaunayTetrahedra::nearest_ghost(uint32_t ghost, const dvec3& position) const {
+    const auto distance = [&](uint32_t cell) {
+        const auto& [a, b, c, d] = cells_[cell].vertices;
+        const dvec3 to = positions_[a] + positions_[b] + positions_[c] - 3.0 * position;
+        return to.x * to.x + to.y * to.y + to.z * to.z;
+    };
+    double nearest = distance(ghost);
+    for (uint32_t steps = 0; steps < kMostGhosts; ++steps) {
+        const uint32_t from = ghost;
+        for (uint32_t corner = 0; corner < 3; ++corner) {
+            const uint32_t other = cell_of(cells_[from].neighbors[corner]);
+            const double distance_of_other = distance(other);
+            if (distance_of_other >= nearest) continue;
+            nearest = distance_of_other;
+            ghost = other;
+        }
+        if (ghost == from) break;
+    }
+    return ghost;
+}
+
+/// Walks from the last cell to one in conflict with a position: the tetrahedron around it, a ghost
+/// whose triangle sees it, or one before. A walk that crosses any triangle that has the position
+/// beyond it ends: the tetrahedra are Delaunay (Devillers, Pion and Teillaud, "Walking in a
+/// triangulation", 2002).
 uint32_t DelaunayTetrahedra::locate(const dvec3& position) const {
     uint32_t cell = last_cell_;
-    if (cells_[cell].is_ghost()) cell = cell_of(cells_[cell].neighbors[3]);
+    if (cells_[cell].is_ghost()) {
+        cell = nearest_ghost(cell, position);
+        if (is_in_conflict(cell, position)) return cell;
+        cell = cell_of(cells_[cell].neighbors[3]);
+    }
     uint32_t entered = 4;  // no corner
-    while (!cells_[cell].is_ghost()) {
+    for (uint32_t steps = 0; !cells_[cell].is_ghost(); ++steps) {
+        if (steps > kShortWalk && is_in_conflict(cell, position)) break;
         const DelaunayCell& here = cells_[cell];
         uint32_t corner = 0;
         while (corner < 4 && (corner == entered || side(here, corner, position) >= 0)) ++corner;
@@ -264,8 +300,10 @@ bool DelaunayTetrahedra::fill_cavity() {
         cells_[cell].vertices[0] = DelaunayCell::kFree;
         free_cells_.push_back(cell);
     }
+    uint32_t last_ghost = DelaunayCell::kFree;
     for (Facet& facet : facets_) {
         facet.cell = take_cell();
+        if (facet.vertices[3] == DelaunayCell::kGhost) last_ghost = facet.cell;
         DelaunayCell& cell = cells_[facet.cell];
         cell.vertices = facet.vertices;
         cell.neighbors[facet.corner] = facet.outside;
@@ -273,7 +311,7 @@ bool DelaunayTetrahedra::fill_cavity() {
         cells_[cell_of(facet.outside)].neighbors[corner_of(facet.outside)] =
             4 * facet.cell + facet.corner;
     }
-    last_cell_ = facets_.back().cell;
+    last_cell_ = last_ghost != DelaunayCell::kFree ? last_ghost : facets_.back().cell;
     if (number_vertices()) {
         link_by_table();
         return true;

@@ -99,6 +99,7 @@ class DelaunayTetrahedra {
     [[nodiscard]] bool is_alive(uint32_t vertex) const;
     [[nodiscard]] int side(const DelaunayCell& cell, uint32_t corner,
                            const glm::dvec3& position) const;
+    [[nodiscard]] uint32_t nearest_ghost(uint32_t ghost, const glm::dvec3& position) const;
     [[nodiscard]] uint32_t locate(const glm::dvec3& position) const;
     [[nodiscard]] bool is_in_conflict(uint32_t cell, const glm::dvec3& position) const;
     [[nodiscard]] bool find_cavity(uint32_t vertex, uint32_t first_cell);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -33,7 +34,7 @@ class DelaunayPredicates {
                                    p.z * (q.x * r.y - q.y * r.x);
         if (determinant > orientation_error_) return 1;
         if (determinant < -orientation_error_) return -1;
-        const glm::dvec3 size = glm::max(glm::max(glm::abs(p), glm::abs(q)), glm::abs(r));
+        const glm::dvec3 size = largest(magnitude(p), magnitude(q), magnitude(r));
         const double error = orientation_error(size);
         if (determinant > error) return 1;
         if (determinant < -error) return -1;
@@ -57,7 +58,7 @@ class DelaunayPredicates {
         if (determinant > in_sphere_error_) return 1;
         if (determinant < -in_sphere_error_) return -1;
         const glm::dvec3 size =
-            glm::max(glm::max(glm::abs(p), glm::abs(q)), glm::max(glm::abs(r), glm::abs(s)));
+            largest(magnitude(p), largest(magnitude(q), magnitude(r), magnitude(s)));
         const double error = in_sphere_error(size);
         if (determinant > error) return 1;
         if (determinant < -error) return -1;
@@ -74,11 +75,24 @@ class DelaunayPredicates {
     static constexpr double kEpsilon = 0x1p-53;
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+    // Without branches, which glm::abs and glm::max have: signs cannot be predicted.
+    static glm::dvec3 magnitude(const glm::dvec3& v) {
+        return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
+    }
+
+    static glm::dvec3 largest(const glm::dvec3& a, const glm::dvec3& b) {
+        return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    }
+
+    static glm::dvec3 largest(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return largest(a, largest(b, c));
+    }
+
     static double square(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
     /// True where no product that counts is lost below the least double, and none overflows.
     static bool is_in_range(const glm::dvec3& size, double volume) {
-        const double longest = std::max({size.x, size.y, size.z});
+        const double longest = std::max(size.x, std::max(size.y, size.z));
         return longest < 1e60 && volume > 1e-250 * longest;
     }
 

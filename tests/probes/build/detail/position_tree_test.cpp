@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <tetralight/probes/build/detail/hilbert_order.h>
+#include <tetralight/probes/build/hilbert_order.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight::detail {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include <tetralight/probes/build/detail/hilbert_order.h>
+#include <tetralight/probes/build/hilbert_order.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight::detail {

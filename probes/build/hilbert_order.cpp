@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/detail/hilbert_order.h>
+#include <tetralight/probes/build/hilbert_order.h>
 
 #include <algorithm>
 #include <compare>
@@ -10,7 +10,7 @@
 #include <tetralight/base/box.h>
 #include <tetralight/probes/hilbert.h>
 
-namespace tetralight::detail {
+namespace tetralight {
 namespace {
 
 /// Fewer positions than this are sorted by x, y, z.
@@ -68,4 +68,4 @@ std::vector<uint32_t> hilbert_order(Positions positions) {
     return order;
 }
 
-}  // namespace tetralight::detail
+}  // namespace tetralight

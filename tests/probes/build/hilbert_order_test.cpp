@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/detail/hilbert_order.h>
+#include <tetralight/probes/build/hilbert_order.h>
 
 #include <gtest/gtest.h>
 
