@@ -21,7 +21,7 @@ void bench_groups(const Options& options) {
     const ProbeGroup& room = groups[1];
     VolumeBuilder builder;
     require(bool(builder.add_group(groups[0])), "adding a group");
-    ProbeVolume without = builder.build();
+    ProbeVolume without = *builder.build();
     ProbeVolume with;
 
     std::vector<double> full, added, removed;
@@ -30,13 +30,13 @@ void bench_groups(const Options& options) {
         const ProbeVolume expected = std::move(with);
         added.push_back(seconds([&] {
             require(bool(builder.add_group(room)), "adding a group");
-            with = builder.build();
+            with = *builder.build();
         }));
         require(with == expected, "a group that was added gives another volume");
         const ProbeVolume before = std::move(without);
         removed.push_back(seconds([&] {
             require(bool(builder.remove_group(room.name)), "removing a group");
-            without = builder.build();
+            without = *builder.build();
         }));
         require(without == before, "a group that was removed leaves another volume");
     }

@@ -15,11 +15,13 @@ namespace {
 
 /// `tetrahedralize` that reuses the tetrahedra of the last build. Flat sets have few probes and are
 /// built from scratch.
-Tetrahedralization tetrahedralize_next(const MergedProbes& probes, detail::KeptTetrahedra& kept) {
+Result<Tetrahedralization> tetrahedralize_next(const MergedProbes& probes,
+                                               detail::KeptTetrahedra& kept) {
     const auto spread = detail::measure_spread(probes.positions, flat_tolerance(probes));
     if (spread.dimension == Dimension::Space) {
-        std::vector<Cell> cells = kept.change_to(probes.positions);
-        if (!cells.empty()) return detail::with_hull_cells(std::move(cells), Dimension::Space);
+        auto cells = kept.change_to(probes.positions);
+        if (!cells) return cells.error();
+        if (!cells->empty()) return detail::with_hull_cells(std::move(*cells), Dimension::Space);
     }
     return tetrahedralize(probes.positions, flat_tolerance(probes));
 }
@@ -57,9 +59,11 @@ Status VolumeBuilder::remove_group(std::string_view name) {
     return Ok{};
 }
 
-ProbeVolume VolumeBuilder::build() {
+Result<ProbeVolume> VolumeBuilder::build() {
     const MergedProbes probes = *merge(groups_, settings_);
-    return make_probe_volume(probes, tetrahedralize_next(probes, kept_->tetrahedra));
+    auto cells = tetrahedralize_next(probes, kept_->tetrahedra);
+    if (!cells) return cells.error();
+    return make_probe_volume(probes, std::move(*cells));
 }
 
 }  // namespace tetralight

@@ -17,9 +17,9 @@ namespace tetralight {
 ///
 ///     VolumeBuilder builder;
 ///     for (const ProbeGroup& group : groups) require(builder.add_group(group));
-///     ProbeVolume volume = builder.build();
+///     ProbeVolume volume = *builder.build();
 ///     require(builder.remove_group("hall"));
-///     ProbeVolume next = builder.build();
+///     ProbeVolume next = *builder.build();
 ///     copy_light(volume.view(), next);
 ///
 /// A volume depends on the groups alone, not on the way to them: it is
@@ -39,8 +39,9 @@ class VolumeBuilder {
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// A volume without light over the current groups.
-    [[nodiscard]] ProbeVolume build();
+    /// A volume without light over the current groups. Returns out_of_resources if there is no
+    /// memory for their tetrahedra; the builder is as before then.
+    [[nodiscard]] Result<ProbeVolume> build();
 
   private:
     struct Kept;

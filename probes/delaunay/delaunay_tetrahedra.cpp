@@ -42,7 +42,7 @@ uint32_t DelaunayTetrahedra::last_vertex() const {
 }
 
 void DelaunayTetrahedra::clear() {
-    *this = DelaunayTetrahedra();
+    *this = DelaunayTetrahedra(memory_);
 }
 
 Status DelaunayTetrahedra::insert(std::span<const dvec3> positions, std::span<uint32_t> vertices) {
@@ -79,7 +79,7 @@ bool DelaunayTetrahedra::add_positions(std::span<const dvec3> positions,
 bool DelaunayTetrahedra::insert_all(std::span<const uint32_t> vertices) {
     const bool is_first = cells_.is_empty();
     const size_t count = is_first ? positions_.size() - 1 - free_vertices_.size() : vertices.size();
-    detail::GrowingArray<uint32_t> order;
+    detail::GrowingArray<uint32_t> order(memory_);
     if (!order.reserve(2 * count)) return false;
     if (is_first) {
         for (uint32_t vertex = 1; vertex <= last_vertex(); ++vertex) {
@@ -441,13 +441,14 @@ bool DelaunayTetrahedra::remove_all(std::span<const uint32_t> vertices) {
         free_vertices_.push_back(vertex);
     }
     if (!has_cells) return true;
-    detail::GrowingArray<uint32_t> rim;
-    detail::GrowingArray<dvec3> places;
-    detail::GrowingArray<uint32_t> numbers;
+    if (facets_.is_empty()) return rebuild();  // the hole is everything
+    detail::GrowingArray<uint32_t> rim(memory_);
+    detail::GrowingArray<dvec3> places(memory_);
+    detail::GrowingArray<uint32_t> numbers(memory_);
     if (!find_rim(rim) || !places.reserve(rim.size()) || !numbers.reserve(rim.size())) return false;
     for (const uint32_t vertex : rim) places.push_back(positions_[vertex]);
     numbers.set_size(rim.size());
-    DelaunayTetrahedra patch;
+    DelaunayTetrahedra patch(memory_);
     if (!patch.insert({places.begin(), places.size()}, {numbers.begin(), numbers.size()}))
         return false;
     if (patch.cells_.is_empty()) return rebuild();
@@ -484,7 +485,7 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
     };
     const auto is_before = [](const Side& a, const Side& b) { return a.corners < b.corners; };
 
-    detail::GrowingArray<Side> sides;
+    detail::GrowingArray<Side> sides(memory_);
     if (!sides.reserve(facets_.size())) return Filled::OutOfMemory;
     for (uint32_t i = 0; i < facets_.size(); ++i) {
         Side side = side_of(facets_[i].vertices, facets_[i].corner);
@@ -512,7 +513,7 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
     };
 
     // For each cell of the patch: kNone, or the cell of this set that it becomes.
-    detail::GrowingArray<uint32_t> becomes, inside;
+    detail::GrowingArray<uint32_t> becomes(memory_), inside(memory_);
     if (!becomes.reserve(patch.cells_.size())) return Filled::OutOfMemory;
     becomes.set_size(patch.cells_.size());
     std::fill(becomes.begin(), becomes.end(), kNone);

@@ -9,6 +9,7 @@
 #include <tetralight/base/result.h>
 #include <tetralight/probes/delaunay/detail/growing_array.h>
 #include <tetralight/probes/delaunay/detail/predicates.h>
+#include <tetralight/probes/delaunay/memory_source.h>
 
 namespace tetralight {
 
@@ -46,6 +47,8 @@ struct DelaunayCell {
 /// tetrahedra of the positions around it that lie inside it.
 class DelaunayTetrahedra {
   public:
+    explicit DelaunayTetrahedra(const MemorySource& memory = {}) : memory_(memory) {}
+
     /// Adds positions, whose vertices get the numbers `vertices`, as many as there are positions.
     /// Precondition: finite, and distinct from each other and from those of the set. Returns
     /// out_of_resources if memory is short; the set is empty then.
@@ -110,16 +113,17 @@ class DelaunayTetrahedra {
     void begin_round();
     [[nodiscard]] uint32_t take_cell();
 
+    MemorySource memory_;
     detail::DelaunayPredicates predicates_;
-    detail::GrowingArray<glm::dvec3> positions_;  // by vertex; that of the ghost is unused
-    detail::GrowingArray<DelaunayCell> cells_;
+    detail::GrowingArray<glm::dvec3> positions_{memory_};  // by vertex; that of the ghost is unused
+    detail::GrowingArray<DelaunayCell> cells_{memory_};
     /// For each cell: round + 1 if it is in the cavity of this round, round if it is known not to.
-    detail::GrowingArray<uint32_t> marks_;
-    detail::GrowingArray<LocalNumber> local_numbers_;  // by vertex
-    detail::GrowingArray<uint32_t> free_cells_, free_vertices_;
-    detail::GrowingArray<uint32_t> cavity_;
-    detail::GrowingArray<Facet> facets_;
-    detail::GrowingArray<std::array<uint32_t, 3>> sides_;
+    detail::GrowingArray<uint32_t> marks_{memory_};
+    detail::GrowingArray<LocalNumber> local_numbers_{memory_};  // by vertex
+    detail::GrowingArray<uint32_t> free_cells_{memory_}, free_vertices_{memory_};
+    detail::GrowingArray<uint32_t> cavity_{memory_};
+    detail::GrowingArray<Facet> facets_{memory_};
+    detail::GrowingArray<std::array<uint32_t, 3>> sides_{memory_};
     std::array<uint32_t, kTableSize * kTableSize> table_{};
     uint32_t round_ = 0;
     uint32_t last_cell_ = 0;

@@ -44,10 +44,10 @@ int in_circle(const dvec2& a, const dvec2& b, const dvec2& c, const dvec2& d) {
 }  // namespace
 
 Status DelaunayTriangles::make(std::span<const dvec2> positions) {
-    *this = DelaunayTriangles();
+    *this = DelaunayTriangles(memory_);
     positions_ = positions;
     if (make_all()) return Ok{};
-    *this = DelaunayTriangles();
+    *this = DelaunayTriangles(memory_);
     return Error{ErrorCode::OutOfResources, "there is not enough memory for the triangles"};
 }
 
@@ -55,7 +55,7 @@ bool DelaunayTriangles::make_all() {
     const size_t count = positions_.size();
     // Each vertex adds two cells.
     const size_t most = 2 * count + 4;
-    detail::GrowingArray<uint32_t> order;
+    detail::GrowingArray<uint32_t> order(memory_);
     if (!order.reserve(2 * count) || !cells_.reserve(most) || !marks_.reserve(most) ||
         !cavity_.reserve(most) || !edges_.reserve(most) || !cell_from_.reserve(count + 1)) {
         return false;

@@ -8,6 +8,7 @@
 
 #include <tetralight/base/result.h>
 #include <tetralight/probes/delaunay/detail/growing_array.h>
+#include <tetralight/probes/delaunay/memory_source.h>
 
 namespace tetralight {
 
@@ -29,6 +30,8 @@ struct DelaunayTriangle {
 /// others.
 class DelaunayTriangles {
   public:
+    explicit DelaunayTriangles(const MemorySource& memory = {}) : memory_(memory) {}
+
     /// Makes the triangles of positions, whose vertices have their numbers. Precondition: finite
     /// and distinct. Returns out_of_resources if memory is short; there are no triangles then.
     [[nodiscard]] Status make(std::span<const glm::dvec2> positions);
@@ -57,13 +60,14 @@ class DelaunayTriangles {
     [[nodiscard]] bool insert_vertex(uint32_t vertex);
     void fill_cavity(uint32_t vertex);
 
+    MemorySource memory_;
     std::span<const glm::dvec2> positions_;
-    detail::GrowingArray<DelaunayTriangle> cells_;
-    detail::GrowingArray<uint32_t> marks_;  // as in DelaunayTetrahedra
-    detail::GrowingArray<uint32_t>
-        cell_from_;  // by vertex, last the ghost's: the new cell on its edge
-    detail::GrowingArray<uint32_t> cavity_;
-    detail::GrowingArray<Edge> edges_;
+    detail::GrowingArray<DelaunayTriangle> cells_{memory_};
+    detail::GrowingArray<uint32_t> marks_{memory_};  // as in DelaunayTetrahedra
+    detail::GrowingArray<uint32_t> cell_from_{
+        memory_};  // by vertex, last the ghost's: the new cell on its edge
+    detail::GrowingArray<uint32_t> cavity_{memory_};
+    detail::GrowingArray<Edge> edges_{memory_};
     uint32_t round_ = 0;
     uint32_t last_cell_ = 0;
 };

@@ -15,8 +15,9 @@ namespace tetralight::detail {
 namespace {
 
 /// If memory is short, does what containers do: `operator new` throws, or what the program has set.
-void require(const Status& status) {
-    if (!status) ::operator delete(::operator new(std::numeric_limits<ptrdiff_t>::max()));
+template <class T>
+void require(const Result<T>& result) {
+    if (!result) ::operator delete(::operator new(std::numeric_limits<ptrdiff_t>::max()));
 }
 
 /// The finite cells in canonical order. `index_of(vertex)`: of its position.
@@ -52,7 +53,9 @@ std::vector<Cell> sorted_cells(std::span<const DelaunayCell> cells, size_t posit
 }  // namespace
 
 std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
-    return KeptTetrahedra().change_to(positions);
+    auto cells = KeptTetrahedra().change_to(positions);
+    require(cells);
+    return std::move(*cells);
 }
 
 std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
@@ -77,8 +80,15 @@ std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
     return result;
 }
 
+Status KeptTetrahedra::make_anew(std::span<const glm::dvec3> positions) {
+    vertices_.resize(positions.size());
+    positions_.assign(positions.begin(), positions.end());
+    tetrahedra_.clear();
+    return tetrahedra_.insert(positions, vertices_);
+}
+
 /// Changes the tetrahedra to other positions unless making them anew takes less time.
-bool KeptTetrahedra::has_changed_to(std::span<const glm::dvec3> wanted) {
+Status KeptTetrahedra::change(std::span<const glm::dvec3> wanted) {
     const PositionTable table(positions_);
     std::vector<uint32_t> found(wanted.size(), kNoIndex);
     std::vector<glm::dvec3> added;
@@ -95,24 +105,22 @@ bool KeptTetrahedra::has_changed_to(std::span<const glm::dvec3> wanted) {
     std::vector<uint32_t> removed;
     std::ranges::copy_if(vertices_, std::back_inserter(removed),
                          [](uint32_t vertex) { return vertex != kNoIndex; });
-    if (added.size() + removed.size() > wanted.size() / 2) return false;
-    require(tetrahedra_.remove(removed));
+    if (added.size() + removed.size() > wanted.size() / 2) return make_anew(wanted);
+    if (auto status = tetrahedra_.remove(removed); !status) return status;
     std::vector<uint32_t> numbers(added.size());
-    require(tetrahedra_.insert(added, numbers));
+    if (auto status = tetrahedra_.insert(added, numbers); !status) return status;
     for (size_t i = 0; i < places.size(); ++i) found[places[i]] = numbers[i];
     vertices_ = std::move(found);
     positions_.assign(wanted.begin(), wanted.end());
-    return true;
+    return Ok{};
 }
 
-std::vector<Cell> KeptTetrahedra::change_to(std::span<const glm::dvec3> positions) {
-    if (!has_changed_to(positions)) {
-        *this = KeptTetrahedra();
-        vertices_.resize(positions.size());
-        require(tetrahedra_.insert(positions, vertices_));
-        positions_.assign(positions.begin(), positions.end());
-    }
-    if (tetrahedra_.cells().empty()) return {};
+Result<std::vector<Cell>> KeptTetrahedra::change_to(std::span<const glm::dvec3> positions) {
+    // What fails, or is left by an exception, keeps nothing.
+    KeptTetrahedra changed = std::exchange(*this, KeptTetrahedra());
+    if (auto status = changed.change(positions); !status) return status.error();
+    *this = std::move(changed);
+    if (tetrahedra_.cells().empty()) return std::vector<Cell>();
     std::vector<uint32_t> indices(tetrahedra_.last_vertex() + 1, kNoIndex);
     for (uint32_t i = 0; i < vertices_.size(); ++i) indices[vertices_[i]] = i;
     return sorted_cells(tetrahedra_.cells(), positions.size(),

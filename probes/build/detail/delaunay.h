@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/base/result.h>
 #include <tetralight/probes/delaunay/delaunay_tetrahedra.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -26,10 +27,12 @@ namespace tetralight::detail {
 class KeptTetrahedra {
   public:
     /// `delaunay_tetrahedra` of these positions. The result does not depend on the set before.
-    [[nodiscard]] std::vector<Cell> change_to(std::span<const glm::dvec3> positions);
+    /// Returns out_of_resources if memory is short; the next set is made anew then.
+    [[nodiscard]] Result<std::vector<Cell>> change_to(std::span<const glm::dvec3> positions);
 
   private:
-    [[nodiscard]] bool has_changed_to(std::span<const glm::dvec3> wanted);
+    [[nodiscard]] Status make_anew(std::span<const glm::dvec3> positions);
+    [[nodiscard]] Status change(std::span<const glm::dvec3> positions);
 
     DelaunayTetrahedra tetrahedra_;
     std::vector<glm::dvec3> positions_;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
-#include <span>
 #include <type_traits>
 #include <utility>
+
+#include <tetralight/probes/delaunay/memory_source.h>
 
 namespace tetralight::detail {
 
@@ -17,22 +17,24 @@ class GrowingArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
   public:
-    GrowingArray() = default;
+    explicit GrowingArray(const MemorySource& memory) : memory_(memory) {}
 
-    GrowingArray(GrowingArray&& other) noexcept { swap(other); }
+    GrowingArray(GrowingArray&& other) noexcept : memory_(other.memory_) { swap(other); }
 
     GrowingArray& operator=(GrowingArray&& other) noexcept {
         swap(other);
         return *this;
     }
 
-    ~GrowingArray() { std::free(values_); }
+    ~GrowingArray() {
+        if (values_ != nullptr) memory_.resize(memory_.context, values_, 0);
+    }
 
     /// Makes room for `capacity` values; more than that as it grows.
     [[nodiscard]] bool reserve(size_t capacity) {
         if (capacity <= capacity_) return true;
         const size_t wanted = std::max(capacity, capacity_ + capacity_ / 2);
-        void* moved = std::realloc(static_cast<void*>(values_), wanted * sizeof(T));
+        void* moved = memory_.resize(memory_.context, values_, wanted * sizeof(T));
         if (moved == nullptr) return false;
         values_ = static_cast<T*>(moved);
         capacity_ = wanted;
@@ -68,12 +70,14 @@ class GrowingArray {
     [[nodiscard]] const T* end() const { return values_ + size_; }
 
     void swap(GrowingArray& other) noexcept {
+        std::swap(memory_, other.memory_);
         std::swap(values_, other.values_);
         std::swap(size_, other.size_);
         std::swap(capacity_, other.capacity_);
     }
 
   private:
+    MemorySource memory_;
     T* values_ = nullptr;
     size_t size_ = 0;
     size_t capacity_ = 0;

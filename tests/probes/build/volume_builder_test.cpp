@@ -19,7 +19,7 @@ namespace {
 using test::make_group;
 
 bool is_from_scratch(VolumeBuilder& builder) {
-    return builder.build() == make_probe_volume(*merge(builder.groups()));
+    return *builder.build() == make_probe_volume(*merge(builder.groups()));
 }
 
 /// Positions dealt at random to groups of which each has half as many as the one before; some stand
@@ -70,9 +70,9 @@ bool is_same_there_and_back(const std::vector<glm::dvec3>& rest,
                             const std::vector<glm::dvec3>& part) {
     VolumeBuilder builder;
     if (!builder.add_group(make_group("rest", rest))) return false;
-    const ProbeVolume before = builder.build();
+    const ProbeVolume before = *builder.build();
     if (!builder.add_group(make_group("part", part)) || !is_from_scratch(builder)) return false;
-    return builder.remove_group("part") && builder.build() == before;
+    return builder.remove_group("part") && *builder.build() == before;
 }
 
 TEST(VolumeBuilder, ChangesAFewOfManyProbesInEveryFamily) {
@@ -111,10 +111,10 @@ TEST(VolumeBuilder, GoesThroughFlatSetsAndBack) {
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(builder.add_group(make_group("above", {{0, 0, 2}, {0.5, 0, 3}})));
         ASSERT_TRUE(is_from_scratch(builder));
-        EXPECT_EQ(builder.build().info.dimension, Dimension::Space);
+        EXPECT_EQ(builder.build()->info.dimension, Dimension::Space);
         ASSERT_TRUE(builder.remove_group("above"));
         ASSERT_TRUE(is_from_scratch(builder));
-        EXPECT_EQ(builder.build().info.dimension, Dimension::Plane);
+        EXPECT_EQ(builder.build()->info.dimension, Dimension::Plane);
     }
 }
 
@@ -125,27 +125,27 @@ TEST(VolumeBuilder, FollowsALocalSpacingThatChanges) {
     sparse.insert(sparse.end(), {{0, 0, 0}, {0.9e-3, 0, 0}});
     VolumeBuilder builder;
     ASSERT_TRUE(builder.add_group(make_group("sparse", sparse)));
-    EXPECT_EQ(builder.build().positions.size(), 101u);
+    EXPECT_EQ(builder.build()->positions.size(), 101u);
     const auto dense = test::moved(test::random_positions(20, 2), glm::dvec3(0.1), {});
     ASSERT_TRUE(builder.add_group(make_group("dense", dense)));
-    EXPECT_EQ(builder.build().positions.size(), 122u);
+    EXPECT_EQ(builder.build()->positions.size(), 122u);
     ASSERT_TRUE(is_from_scratch(builder));
     ASSERT_TRUE(builder.remove_group("dense"));
     ASSERT_TRUE(is_from_scratch(builder));
-    EXPECT_EQ(builder.build().positions.size(), 101u);
+    EXPECT_EQ(builder.build()->positions.size(), 101u);
 }
 
 TEST(VolumeBuilder, TakesTheSettingsOfMerge) {
     const MergeSettings settings{0.1};
     VolumeBuilder builder(settings);
     ASSERT_TRUE(builder.add_group(make_group("a", test::random_positions(100, 2))));
-    EXPECT_EQ(builder.build(), make_probe_volume(*merge(builder.groups(), settings)));
+    EXPECT_EQ(*builder.build(), make_probe_volume(*merge(builder.groups(), settings)));
 }
 
 TEST(VolumeBuilder, ChangesNothingAfterAnError) {
     VolumeBuilder builder;
     ASSERT_TRUE(builder.add_group(make_group("a", test::random_positions(50, 3))));
-    const ProbeVolume before = builder.build();
+    const ProbeVolume before = *builder.build();
     EXPECT_EQ(
         error_text(builder.add_group(make_group("b", {{0, 0, 0}, {0, std::nan(""), 0}})).error()),
         "group \"b\": probe 1: position is not finite (0, nan, 0)");
@@ -154,12 +154,12 @@ TEST(VolumeBuilder, ChangesNothingAfterAnError) {
     EXPECT_FALSE(builder.add_group(make_group("", {{0, 0, 0}})));
     EXPECT_EQ(error_text(builder.remove_group("b").error()), "group \"b\": there is no such group");
     EXPECT_EQ(builder.groups().size(), 1u);
-    EXPECT_EQ(builder.build(), before);
+    EXPECT_EQ(*builder.build(), before);
 }
 
 TEST(VolumeBuilder, OfNothingIsEmpty) {
     VolumeBuilder builder;
-    EXPECT_EQ(builder.build(), make_probe_volume(MergedProbes{}));
+    EXPECT_EQ(*builder.build(), make_probe_volume(MergedProbes{}));
 }
 
 }  // namespace

@@ -10,79 +10,15 @@
 #include <string>
 #include <vector>
 
-#include <tetralight/probes/delaunay/exact_signs.h>
+#include "tests/probes/delaunay/delaunay_checks.h"
 #include "tests/probes/delaunay/point_families.h"
 
 namespace tetralight::test {
 namespace {
 
 using glm::dvec3;
-using Corner = std::array<double, 3>;
-using Corners = std::array<Corner, 4>;
 using Points = std::vector<dvec3>;
 using Vertices = std::vector<uint32_t>;
-
-/// The tetrahedra by the positions of their corners, whatever the numbers of vertices are.
-std::set<Corners> tetrahedra(const DelaunayTetrahedra& delaunay) {
-    std::set<Corners> result;
-    for (const DelaunayCell& cell : delaunay.cells()) {
-        if (!cell.is_finite()) continue;
-        Corners corners;
-        for (size_t i = 0; i < 4; ++i) {
-            const dvec3& p = delaunay.position(cell.vertices[i]);
-            corners[i] = {p.x, p.y, p.z};
-        }
-        std::ranges::sort(corners);
-        result.insert(corners);
-    }
-    return result;
-}
-
-DelaunayTetrahedra delaunay_of(const Points& points) {
-    DelaunayTetrahedra delaunay;
-    Vertices vertices(points.size());
-    EXPECT_TRUE(delaunay.insert(points, vertices));
-    return delaunay;
-}
-
-/// Each cell is the neighbor of its neighbors, across the triangle that they share, and turned as
-/// it should be; the ghosts close the hull: a sphere of 4 ghosts and their finite neighbors.
-void expect_sound(const DelaunayTetrahedra& delaunay) {
-    const auto cells = delaunay.cells();
-    for (uint32_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].is_free()) continue;
-        const auto& [a, b, c, d] = cells[i].vertices;
-        for (uint32_t corner = 0; corner < 4; ++corner) {
-            const uint32_t neighbor = cells[i].neighbors[corner];
-            ASSERT_LT(neighbor / 4, cells.size());
-            const DelaunayCell& other = cells[neighbor / 4];
-            ASSERT_FALSE(other.is_free());
-            ASSERT_EQ(other.neighbors[neighbor % 4], 4 * i + corner);
-            for (uint32_t k = 0; k < 4; ++k) {
-                const bool is_shared =
-                    std::ranges::find(other.vertices, cells[i].vertices[k]) != other.vertices.end();
-                ASSERT_EQ(is_shared, k != corner);
-            }
-        }
-        if (!cells[i].is_finite()) continue;
-        ASSERT_EQ(exact_orientation(delaunay.position(a), delaunay.position(b),
-                                    delaunay.position(c), delaunay.position(d)),
-                  1);
-    }
-}
-
-/// No position is inside of the circumsphere of a tetrahedron: by the definition, for all pairs.
-void expect_delaunay(const DelaunayTetrahedra& delaunay, const Points& points) {
-    for (const DelaunayCell& cell : delaunay.cells()) {
-        if (!cell.is_finite()) continue;
-        const auto& [a, b, c, d] = cell.vertices;
-        for (const dvec3& point : points) {
-            ASSERT_LE(exact_in_sphere(delaunay.position(a), delaunay.position(b),
-                                      delaunay.position(c), delaunay.position(d), point),
-                      0);
-        }
-    }
-}
 
 class Delaunay : public testing::TestWithParam<const char*> {};
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// TETRALIGHT_NIGHTLY=1: ten million cases.
 #include <tetralight/probes/delaunay/exact_signs.h>
 
 #include <gmpxx.h>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include <tetralight/probes/delaunay/detail/predicates.h>
+#include "tests/support/property.h"
 
 namespace tetralight {
 namespace {
@@ -96,10 +98,10 @@ INSTANTIATE_TEST_SUITE_P(All, ExactSigns, testing::ValuesIn(kFamilies),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(ExactSigns, AreThoseOfRationalNumbers) {
-    constexpr int kCaseCount = 4000;
+    const int case_count = test::is_nightly() ? 1'500'000 : 4000;
     Random random(1);
     int zero_count = 0;
-    for (int i = 0; i < kCaseCount; ++i) {
+    for (int i = 0; i < case_count; ++i) {
         std::array<dvec3, 5> p;
         for (dvec3& position : p) {
             for (int axis = 0; axis < 3; ++axis) position[axis] = GetParam().coordinate(random);
@@ -120,7 +122,7 @@ TEST_P(ExactSigns, AreThoseOfRationalNumbers) {
     }
     const std::string name = GetParam().name;
     const bool has_zeros = name == "Lattice" || name == "Denormals";
-    EXPECT_GT(zero_count, has_zeros ? kCaseCount / 40 : -1);
+    EXPECT_GT(zero_count, has_zeros ? case_count / 40 : -1);
 }
 
 TEST(ExactSigns, PositionsOnASphereAreNearlySo) {
