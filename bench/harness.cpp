@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bench/harness.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -69,6 +73,24 @@ double cpu_seconds(const std::function<void()>& work) {
 
 bool is_selected(const Options& options, const std::string& scene) {
     return options.only.value_or(scene) == scene;
+}
+
+double peak_memory(const std::vector<std::string>& arguments) {
+    std::vector<char*> pointers{const_cast<char*>("tetralight_bench")};
+    for (const std::string& argument : arguments) {
+        pointers.push_back(const_cast<char*>(argument.c_str()));
+    }
+    pointers.push_back(nullptr);
+    const pid_t child = fork();
+    require(child >= 0, "fork");
+    if (child == 0) {
+        execv("/proc/self/exe", pointers.data());
+        _exit(1);
+    }
+    rusage usage{};
+    int status = 0;
+    require(wait4(child, &status, 0, &usage) == child && status == 0, "a process of this program");
+    return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
 void require(bool is_right, const std::string& what) {

@@ -65,6 +65,9 @@ void report(const std::string& figure, double value, const std::string& unit);
 /// True if `--only` names this scene or is not given.
 [[nodiscard]] bool is_selected(const Options& options, const std::string& scene);
 
+/// The largest memory of a process that runs this program with these arguments, bytes.
+[[nodiscard]] double peak_memory(const std::vector<std::string>& arguments);
+
 /// Ends the program with exit code 1 if `is_right` is false: an answer differs from the baseline's.
 void require(bool is_right, const std::string& what);
 

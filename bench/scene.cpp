@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -70,27 +67,13 @@ void bench_load(const std::string& path, const std::string& name, const Options&
     run(contest, options);
 }
 
-/// The largest memory of a process that runs this program's scene benchmark with `only`, in bytes.
-double peak_of_process(const char* only, const std::string& path) {
-    const pid_t child = fork();
-    require(child >= 0, "fork");
-    if (child == 0) {
-        execl("/proc/self/exe", "tetralight_bench", "scene", "--only", only, "--scene",
-              path.c_str(), nullptr);
-        _exit(1);
-    }
-    rusage usage{};
-    int status = 0;
-    require(wait4(child, &status, 0, &usage) == child && status == 0, "the reading process");
-    return static_cast<double>(usage.ru_maxrss) * 1024.0;
-}
-
 /// The peak of a process that reads the scene, as a part of what the headers announce and the
 /// program itself has.
 void bench_memory(const std::string& path, const std::string& name) {
     const auto announced = static_cast<double>(read_whole(path).memory.peak_bytes());
     report("scene.memory." + name,
-           peak_of_process("read", path) / (peak_of_process("nothing", path) + announced),
+           peak_memory({"scene", "--only", "read", "--scene", path}) /
+               (peak_memory({"scene", "--only", "nothing", "--scene", path}) + announced),
            "peak / announced");
 }
 

@@ -89,9 +89,16 @@ void slivers(int side) {
            "%");
 }
 
+ProbeVolume build_million() {
+    const ProbeGroup group = make_group("bench", random_positions(1'000'000, 3, 1.0));
+    return make_probe_volume(*merge(std::span(&group, 1)));
+}
+
 }  // namespace
 
 void bench_tetrahedralize(const Options& options) {
+    if (options.only == "memory") (void)build_million();
+    if (options.only) return;  // a process of peak_memory()
     bench_delaunay(options);
     build("10k", random_positions(10'000, 1, 1.0), options);
     build("100k", random_positions(100'000, 2, 1.0), options);
@@ -99,6 +106,8 @@ void bench_tetrahedralize(const Options& options) {
     slivers(60);
     bench_groups(options);
     if (options.is_quick) return;
+    report("tetrahedralize.peak_memory", 1e-6 * peak_memory({"tetrahedralize", "--only", "memory"}),
+           "MB");
     build("1m", random_positions(1'000'000, 3, 1.0), options);
     build("lattice", lattice(100), options);
 }

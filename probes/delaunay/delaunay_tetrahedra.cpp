@@ -45,6 +45,12 @@ void DelaunayTetrahedra::clear() {
     *this = DelaunayTetrahedra(memory_);
 }
 
+detail::GrowingArray<DelaunayCell> DelaunayTetrahedra::take_cells() {
+    detail::GrowingArray<DelaunayCell> cells = std::move(cells_);
+    clear();
+    return cells;
+}
+
 Status DelaunayTetrahedra::insert(std::span<const dvec3> positions, std::span<uint32_t> vertices) {
     if (add_positions(positions, vertices) && insert_all(vertices)) return Ok{};
     clear();

@@ -49,9 +49,9 @@ class DelaunayTetrahedra {
   public:
     explicit DelaunayTetrahedra(const MemorySource& memory = {}) : memory_(memory) {}
 
-    /// Adds positions, whose vertices get the numbers `vertices`, as many as there are positions.
-    /// Precondition: finite, and distinct from each other and from those of the set. Returns
-    /// out_of_resources if memory is short; the set is empty then.
+    /// Adds positions, whose vertices get the numbers `vertices`, as many as there are positions:
+    /// 1, 2, 3 and so on in an empty set. Precondition: finite, and distinct from each other and
+    /// from those of the set. Returns out_of_resources if memory is short; the set is empty then.
     [[nodiscard]] Status insert(std::span<const glm::dvec3> positions,
                                 std::span<uint32_t> vertices);
 
@@ -67,6 +67,9 @@ class DelaunayTetrahedra {
     [[nodiscard]] uint32_t last_vertex() const;
 
     void clear();
+
+    /// `cells`, alone: the set is empty then, and what it kept for changes is freed.
+    [[nodiscard]] detail::GrowingArray<DelaunayCell> take_cells();
 
   private:
     /// A triangle around a cavity, and the cell that will stand on it.

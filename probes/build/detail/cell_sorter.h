@@ -51,14 +51,17 @@ inline Cell make_sorted_cell(std::array<uint64_t, 4> corners, int vertex_count) 
 ///
 /// The caller visits its cells twice in the same order, their corners sorted:
 ///
-///     CellSorter sorter(probe_count);
+///     CellSorter sorter(probe_count, cell_count);
 ///     for (each cell) sorter.count(cell.vertices[0]);
 ///     sorter.reserve_places(hull_cell_count);
 ///     for (each cell) sorter.add(cell);  // neighbors are numbered as the cells come, 0..
 ///     std::vector<Cell> cells = sorter.finish();
 class CellSorter {
   public:
-    explicit CellSorter(size_t vertex_count) : begins_(vertex_count + 1, 0) {}
+    /// `most_cells`: no more cells will come.
+    CellSorter(size_t vertex_count, size_t most_cells) : begins_(vertex_count + 1, 0) {
+        first_vertices_.reserve(most_cells);
+    }
 
     void count(uint32_t first_vertex) {
         ++begins_[size_t{first_vertex} + 1];

@@ -24,7 +24,7 @@ void require(const Result<T>& result) {
 template <class IndexOf>
 std::vector<Cell> sorted_cells(std::span<const DelaunayCell> cells, size_t position_count,
                                const IndexOf& index_of) {
-    CellSorter sorter(position_count);
+    CellSorter sorter(position_count, cells.size());
     // The number of each cell among the finite ones, and kNoIndex for others.
     std::vector<uint32_t> numbers(cells.size(), kNoIndex);
     uint32_t finite_count = 0;
@@ -53,9 +53,15 @@ std::vector<Cell> sorted_cells(std::span<const DelaunayCell> cells, size_t posit
 }  // namespace
 
 std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
-    auto cells = KeptTetrahedra().change_to(positions);
-    require(cells);
-    return std::move(*cells);
+    DelaunayTetrahedra tetrahedra;
+    {
+        std::vector<uint32_t> vertices(positions.size());
+        require(tetrahedra.insert(positions, vertices));
+    }
+    const auto cells = tetrahedra.take_cells();
+    // Vertices are numbered from 1 in the order of their positions.
+    return sorted_cells({cells.begin(), cells.size()}, positions.size(),
+                        [](uint32_t vertex) { return vertex - 1; });
 }
 
 std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
@@ -89,6 +95,7 @@ Status KeptTetrahedra::make_anew(std::span<const glm::dvec3> positions) {
 
 /// Changes the tetrahedra to other positions unless making them anew takes less time.
 Status KeptTetrahedra::change(std::span<const glm::dvec3> wanted) {
+    if (positions_.empty()) return make_anew(wanted);
     const PositionTable table(positions_);
     std::vector<uint32_t> found(wanted.size(), kNoIndex);
     std::vector<glm::dvec3> added;
