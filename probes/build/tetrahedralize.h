@@ -21,7 +21,8 @@ struct Tetrahedralization {
     bool operator==(const Tetrahedralization&) const = default;
 };
 
-/// Tetrahedralizes positions with exact predicates (CGAL): every position becomes a vertex.
+/// Tetrahedralizes positions with exact predicates (`DelaunayTetrahedra`): every position becomes a
+/// vertex.
 ///
 /// Any number of positions anywhere is fine. Those that deviate from one plane (line, point) by at
 /// most `flatness` metres become triangles in that plane (segments along the line, one cell).

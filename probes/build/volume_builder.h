@@ -40,7 +40,7 @@ class VolumeBuilder {
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
     /// A volume without light over the current groups. Returns out_of_resources if there is no
-    /// memory for their tetrahedra; the builder is as before then.
+    /// memory for their tetrahedra; the groups are as before then.
     [[nodiscard]] Result<ProbeVolume> build();
 
   private:

@@ -20,6 +20,9 @@ using glm::dvec3;
 /// from outside.
 constexpr uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+/// Neighbors are 4 · cell + corner in 32 bits.
+constexpr size_t kMostCells = size_t{1} << 30;
+
 /// Longer walks look for cells in conflict on their way, which are any of the cavity: where cells
 /// are long and thin, one is met long before the cell around the position.
 constexpr uint32_t kShortWalk = 4;
@@ -28,7 +31,8 @@ constexpr uint32_t kShortWalk = 4;
 constexpr uint32_t kMostGhosts = 32;
 
 Error out_of_memory() {
-    return {ErrorCode::OutOfResources, "there is not enough memory for the tetrahedra"};
+    return {ErrorCode::OutOfResources,
+            "there is not enough memory for the tetrahedra, or there are more than 2^30"};
 }
 
 }  // namespace
@@ -141,7 +145,7 @@ bool DelaunayTetrahedra::find_first_cell(std::span<const uint32_t> vertices,
 bool DelaunayTetrahedra::begin(const std::array<uint32_t, 4>& corners) {
     constexpr size_t kCellCount = 5;
     const size_t expected = positions_.size() * 7 + kCellCount;
-    if (!cells_.reserve(expected) || !marks_.reserve(expected)) return false;
+    if (!reserve_cells(std::min<size_t>(expected, kMostCells))) return false;
     cells_.push_back({corners, {}});
     for (uint32_t corner = 0; corner < 4; ++corner) {
         // The ghost in place of the corner is on the other side of the triangle, and comes last.
@@ -285,6 +289,10 @@ bool DelaunayTetrahedra::find_cavity(uint32_t vertex, uint32_t first_cell) {
     return true;
 }
 
+bool DelaunayTetrahedra::reserve_cells(size_t count) {
+    return count <= kMostCells && cells_.reserve(count) && marks_.reserve(count);
+}
+
 /// Precondition: there is room.
 uint32_t DelaunayTetrahedra::take_cell() {
     if (!free_cells_.is_empty()) {
@@ -300,8 +308,7 @@ uint32_t DelaunayTetrahedra::take_cell() {
 /// Replaces the cells of the cavity by one on each triangle around it.
 bool DelaunayTetrahedra::fill_cavity() {
     if (!free_cells_.reserve(free_cells_.size() + cavity_.size())) return false;
-    const size_t most = cells_.size() + facets_.size();
-    if (!cells_.reserve(most) || !marks_.reserve(most)) return false;
+    if (!reserve_cells(cells_.size() + facets_.size())) return false;
     for (const uint32_t cell : cavity_) {
         cells_[cell].vertices[0] = DelaunayCell::kFree;
         free_cells_.push_back(cell);
@@ -386,18 +393,37 @@ bool DelaunayTetrahedra::link_by_sorting() {
 /// The cells around vertices, and the triangles around them: a hole to be filled.
 bool DelaunayTetrahedra::find_hole(std::span<const uint32_t> vertices) {
     begin_round();
+    constexpr uint32_t kSeen = 1;
     for (const uint32_t vertex : vertices) local_numbers_[vertex] = {round_, 0};
     cavity_.clear();
     facets_.clear();
-    for (uint32_t cell = 0; cell < cells_.size(); ++cell) {
-        if (cells_[cell].is_free()) continue;
-        const bool is_in_hole = std::ranges::any_of(cells_[cell].vertices, [&](uint32_t vertex) {
-            return local_numbers_[vertex].round == round_;
-        });
-        if (!is_in_hole) continue;
+    size_t looked_at = 0;
+    const auto add = [&](uint32_t cell) {
+        if (marks_[cell] == round_ || cells_[cell].is_free()) return true;
+        bool is_in_hole = false;
+        for (const uint32_t vertex : cells_[cell].vertices) {
+            LocalNumber& local = local_numbers_[vertex];
+            if (local.round != round_) continue;
+            local.number = kSeen;
+            is_in_hole = true;
+        }
+        if (!is_in_hole) return true;
         if (!cavity_.reserve(cavity_.size() + 1)) return false;
         cavity_.push_back(cell);
         marks_[cell] = round_;
+        return true;
+    };
+    for (const uint32_t vertex : vertices) {
+        if (local_numbers_[vertex].number == kSeen) continue;
+        // Cells that have the vertex are the only ones around its position, or in conflict with it.
+        const uint32_t first = locate(positions_[vertex]);
+        if (!add(first)) return false;
+        last_cell_ = first;
+        for (; looked_at < cavity_.size(); ++looked_at) {
+            for (const uint32_t neighbor : cells_[cavity_[looked_at]].neighbors) {
+                if (!add(cell_of(neighbor))) return false;
+            }
+        }
     }
     for (const uint32_t cell : cavity_) {
         const auto& [corners, neighbors] = cells_[cell];
@@ -524,8 +550,7 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
     becomes.set_size(patch.cells_.size());
     std::fill(becomes.begin(), becomes.end(), kNone);
     if (!free_cells_.reserve(free_cells_.size() + cavity_.size())) return Filled::OutOfMemory;
-    const size_t most = cells_.size() + patch.cells_.size();
-    if (!cells_.reserve(most) || !marks_.reserve(most) || !inside.reserve(patch.cells_.size()))
+    if (!reserve_cells(cells_.size() + patch.cells_.size()) || !inside.reserve(patch.cells_.size()))
         return Filled::OutOfMemory;
     for (const uint32_t cell : cavity_) {
         cells_[cell].vertices[0] = DelaunayCell::kFree;

@@ -51,7 +51,8 @@ class DelaunayTetrahedra {
 
     /// Adds positions, whose vertices get the numbers `vertices`, as many as there are positions:
     /// 1, 2, 3 and so on in an empty set. Precondition: finite, and distinct from each other and
-    /// from those of the set. Returns out_of_resources if memory is short; the set is empty then.
+    /// from those of the set. Returns out_of_resources if memory is short, or there would be more
+    /// than 2^30 cells; the set is empty then.
     [[nodiscard]] Status insert(std::span<const glm::dvec3> positions,
                                 std::span<uint32_t> vertices);
 
@@ -114,6 +115,7 @@ class DelaunayTetrahedra {
     void link_by_table();
     [[nodiscard]] bool link_by_sorting();
     void begin_round();
+    [[nodiscard]] bool reserve_cells(size_t count);
     [[nodiscard]] uint32_t take_cell();
 
     MemorySource memory_;
