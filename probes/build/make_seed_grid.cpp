@@ -43,11 +43,6 @@ class Maker {
     }
 
   private:
-    struct Voxel {
-        uint64_t word = 0;
-        glm::vec3 center{0.0f};  ///< world
-    };
-
     /// Probes sorted by their voxel, and where those of each voxel begin.
     struct Sorted {
         std::vector<uint32_t> probes;
@@ -161,21 +156,9 @@ class Maker {
         const uint64_t word = place + kSeedGridHeaderWords + voxel;
         const bool is_split = level < kSeedGridLevels && probes.size() > kMostProbes &&
                               seed_voxel_count(header) > 1 && words_.size() < kFinerGrid;
-        if (is_split) {
-            const uint64_t finer = add_grid(probes, level + 1);
-            words_[word] = kFinerGrid | static_cast<uint32_t>(finer);
-            return;
-        }
-        const std::array<size_t, 3> at = voxel_position(header, voxel);
-        glm::dvec3 center(0.0);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<size_t>(axis);
-            center[axis] = header.min[a];
-            if (header.scale[a] > 0.0f) {
-                center[axis] += (static_cast<double>(at[a]) + 0.5) / header.scale[a];
-            }
-        }
-        voxels_.push_back({word, glm::vec3(center + volume_.info.world_origin)});
+        if (!is_split) return;
+        const uint64_t finer = add_grid(probes, level + 1);
+        words_[word] = kFinerGrid | static_cast<uint32_t>(finer);
     }
 
     /// Names in each voxel a cell whose middle is in it. Hull cells have theirs above the triangle.
@@ -242,24 +225,44 @@ class Maker {
         std::ranges::replace(voxels, kNoCell, 0u);
     }
 
+    /// Voxels without a finer grid name the cell at their center.
     void locate_centers() {
-        ProbeVolumeView view = volume_;
         const std::vector<uint32_t> words = words_;
+        ProbeVolumeView view = volume_;
         view.seed_grid = words;
+        for (const uint64_t place : grids_) locate_centers(view, place);
+    }
+
+    void locate_centers(const ProbeVolumeView& view, uint64_t place) {
+        const SeedGridHeader header = seed_grid_header(words_, place);
+        const std::span voxels =
+            std::span(words_).subspan(place + kSeedGridHeaderWords, seed_voxel_count(header));
         constexpr size_t kPart = 4096;
         std::vector<glm::vec3> centers;
         std::vector<uint32_t> cells(kPart);
-        for (size_t begin = 0; begin < voxels_.size(); begin += kPart) {
-            const auto part =
-                std::span(voxels_).subspan(begin, std::min(kPart, voxels_.size() - begin));
+        for (size_t begin = 0; begin < voxels.size(); begin += kPart) {
+            const auto part = voxels.subspan(begin, std::min(kPart, voxels.size() - begin));
             centers.clear();
-            for (const Voxel& voxel : part) centers.push_back(voxel.center);
-            find_near_cells(view, centers, cells);
+            for (size_t i = 0; i < part.size(); ++i) centers.push_back(center(header, begin + i));
+            find_near_cells(view, centers, std::span(cells).first(part.size()));
             for (size_t i = 0; i < part.size(); ++i) {
-                uint32_t& word = words_[part[i].word];
-                if (cells[i] < kNoCell && (word & kFinerGrid) == 0) word = cells[i];
+                if (cells[i] < kNoCell && (part[i] & kFinerGrid) == 0) part[i] = cells[i];
             }
         }
+    }
+
+    /// In the world.
+    [[nodiscard]] glm::vec3 center(const SeedGridHeader& header, size_t voxel) const {
+        const std::array<size_t, 3> at = voxel_position(header, voxel);
+        glm::dvec3 center(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<size_t>(axis);
+            center[axis] = header.min[a];
+            if (header.scale[a] > 0.0f) {
+                center[axis] += (static_cast<double>(at[a]) + 0.5) / header.scale[a];
+            }
+        }
+        return glm::vec3(center + volume_.info.world_origin);
     }
 
     /// Voxels with the middle of a hull triangle begin at its hull cell. Below smooth layers of
@@ -281,7 +284,6 @@ class Maker {
     const ProbeVolumeView& volume_;
     std::vector<uint32_t> words_;
     std::vector<uint64_t> grids_;  ///< places
-    std::vector<Voxel> voxels_;
 };
 
 }  // namespace

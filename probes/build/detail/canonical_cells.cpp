@@ -25,7 +25,7 @@ std::vector<Cell> sort_cells(std::vector<Cell> cells, Dimension dimension) {
         vertex_count = std::max(vertex_count, cell.vertices[0] + 1);
         hull_cell_count += static_cast<size_t>(std::ranges::count(cell.neighbors, kNoIndex));
     }
-    CellSorter sorter(vertex_count, cells.size());
+    CellSorter sorter(vertex_count);
     for (const Cell& cell : cells) sorter.count(cell.vertices[0]);
     sorter.reserve_places(hull_cell_count);
     for (const Cell& cell : cells) sorter.add(cell);

@@ -51,32 +51,30 @@ inline Cell make_sorted_cell(std::array<uint64_t, 4> corners, int vertex_count) 
 ///
 /// The caller visits its cells twice in the same order, their corners sorted:
 ///
-///     CellSorter sorter(probe_count, cell_count);
+///     CellSorter sorter(probe_count);
 ///     for (each cell) sorter.count(cell.vertices[0]);
 ///     sorter.reserve_places(hull_cell_count);
 ///     for (each cell) sorter.add(cell);  // neighbors are numbered as the cells come, 0..
 ///     std::vector<Cell> cells = sorter.finish();
 class CellSorter {
   public:
-    /// `most_cells`: no more cells will come.
-    CellSorter(size_t vertex_count, size_t most_cells) : begins_(vertex_count + 1, 0) {
-        first_vertices_.reserve(most_cells);
-    }
+    explicit CellSorter(size_t vertex_count) : begins_(vertex_count + 1, 0) {}
 
-    void count(uint32_t first_vertex) {
-        ++begins_[size_t{first_vertex} + 1];
-        first_vertices_.push_back(first_vertex);
-    }
+    void count(uint32_t first_vertex) { ++begins_[size_t{first_vertex} + 1]; }
 
     /// Keeps room behind the cells for what will be added to the result.
     void reserve_places(size_t extra_cells);
 
+    /// How far ahead of the cells `expect` is called.
+    static constexpr size_t kAhead = 16;
+
+    /// Optional: a cell with this first vertex comes soon. Places lie far apart: fetched when their
+    /// turn comes, each store would wait.
+    void expect(uint32_t first_vertex) const {
+        __builtin_prefetch(&cells_[next_[first_vertex]], 1);
+    }
+
     void add(const Cell& cell) {
-        // The places lie far apart: fetched when their turn comes, each store would wait.
-        constexpr uint32_t kAhead = 16;
-        if (added_ + kAhead < first_vertices_.size()) {
-            __builtin_prefetch(&cells_[next_[first_vertices_[added_ + kAhead]]], 1);
-        }
         const uint32_t place = next_[cell.vertices[0]]++;
         cells_[place] = cell;
         numbers_[place] = added_++;
@@ -88,9 +86,8 @@ class CellSorter {
     void sort_bucket(uint32_t begin, uint32_t end);
     void insert_in_order(uint32_t begin, uint32_t index);
 
-    std::vector<uint32_t> begins_;          // of the cells of each first vertex; last, their number
-    std::vector<uint32_t> next_;            // free place of each first vertex
-    std::vector<uint32_t> first_vertices_;  // of the cells as they come
+    std::vector<uint32_t> begins_;  // of the cells of each first vertex; last, their number
+    std::vector<uint32_t> next_;    // free place of each first vertex
     std::vector<Cell> cells_;
     std::vector<uint32_t> numbers_;  // of the cell in each place
     uint32_t added_ = 0;

@@ -20,34 +20,42 @@ void require(const Result<T>& result) {
     if (!result) ::operator delete(::operator new(std::numeric_limits<ptrdiff_t>::max()));
 }
 
-/// The finite cells in canonical order. `index_of(vertex)`: of its position.
+/// What sorts the finite cells, ready to finish. `index_of(vertex)`: of its position.
 template <class IndexOf>
-std::vector<Cell> sorted_cells(std::span<const DelaunayCell> cells, size_t position_count,
-                               const IndexOf& index_of) {
-    CellSorter sorter(position_count, cells.size());
+CellSorter sorter_of(std::span<const DelaunayCell> cells, size_t position_count,
+                     const IndexOf& index_of) {
+    const auto first_vertex = [&](const DelaunayCell& cell) {
+        const auto& [a, b, c, d] = cell.vertices;
+        return std::min({index_of(a), index_of(b), index_of(c), index_of(d)});
+    };
+    CellSorter sorter(position_count);
     // The number of each cell among the finite ones, and kNoIndex for others.
     std::vector<uint32_t> numbers(cells.size(), kNoIndex);
     uint32_t finite_count = 0;
     size_t ghost_count = 0;
     for (size_t i = 0; i < cells.size(); ++i) {
-        if (!cells[i].is_finite()) {
-            ghost_count += cells[i].is_free() ? 0 : 1;
-            continue;
+        if (cells[i].is_finite()) {
+            numbers[i] = finite_count++;
+            sorter.count(first_vertex(cells[i]));
+        } else if (!cells[i].is_free()) {
+            ++ghost_count;
         }
-        numbers[i] = finite_count++;
-        const auto& [a, b, c, d] = cells[i].vertices;
-        sorter.count(std::min({index_of(a), index_of(b), index_of(c), index_of(d)}));
     }
     sorter.reserve_places(ghost_count);
-    for (const DelaunayCell& cell : cells) {
-        if (!cell.is_finite()) continue;
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const size_t ahead = i + CellSorter::kAhead;
+        if (ahead < cells.size() && cells[ahead].is_finite()) {
+            sorter.expect(first_vertex(cells[ahead]));
+        }
+        if (!cells[i].is_finite()) continue;
         std::array<uint64_t, 4> corners;
-        for (size_t i = 0; i < 4; ++i) {
-            corners[i] = make_corner(index_of(cell.vertices[i]), numbers[cell.neighbors[i] / 4]);
+        for (size_t k = 0; k < 4; ++k) {
+            corners[k] =
+                make_corner(index_of(cells[i].vertices[k]), numbers[cells[i].neighbors[k] / 4]);
         }
         sorter.add(make_sorted_cell(corners, 4));
     }
-    return sorter.finish();
+    return sorter;
 }
 
 }  // namespace
@@ -58,10 +66,13 @@ std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
         std::vector<uint32_t> vertices(positions.size());
         require(tetrahedra.insert(positions, vertices));
     }
-    const auto cells = tetrahedra.take_cells();
-    // Vertices are numbered from 1 in the order of their positions.
-    return sorted_cells({cells.begin(), cells.size()}, positions.size(),
-                        [](uint32_t vertex) { return vertex - 1; });
+    CellSorter sorter = [&] {
+        const auto cells = tetrahedra.take_cells();
+        // Vertices are numbered from 1 in the order of their positions.
+        return sorter_of({cells.begin(), cells.size()}, positions.size(),
+                         [](uint32_t vertex) { return vertex - 1; });
+    }();
+    return sorter.finish();
 }
 
 std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
@@ -130,8 +141,9 @@ Result<std::vector<Cell>> KeptTetrahedra::change_to(std::span<const glm::dvec3> 
     if (tetrahedra_.cells().empty()) return std::vector<Cell>();
     std::vector<uint32_t> indices(tetrahedra_.last_vertex() + 1, kNoIndex);
     for (uint32_t i = 0; i < vertices_.size(); ++i) indices[vertices_[i]] = i;
-    return sorted_cells(tetrahedra_.cells(), positions.size(),
-                        [&](uint32_t vertex) { return indices[vertex]; });
+    return sorter_of(tetrahedra_.cells(), positions.size(),
+                     [&](uint32_t vertex) { return indices[vertex]; })
+        .finish();
 }
 
 }  // namespace tetralight::detail

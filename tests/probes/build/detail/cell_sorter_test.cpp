@@ -24,7 +24,7 @@ bool is_even(const std::array<uint32_t, 4>& vertices) {
 }
 
 std::vector<Cell> sort(const std::vector<Cell>& cells, size_t vertex_count) {
-    CellSorter sorter(vertex_count, cells.size());
+    CellSorter sorter(vertex_count);
     for (const Cell& cell : cells) sorter.count(cell.vertices[0]);
     sorter.reserve_places(0);
     for (const Cell& cell : cells) sorter.add(cell);
