@@ -28,6 +28,21 @@ bool is_rounded(const CompactProbe& compact, const ProbeVolumeView& volume, size
     return is_rounded(compact.validity, volume.validity.empty() ? 1.0f : volume.validity[probe]);
 }
 
+/// Precondition: there is irradiance, and the scale is set.
+CompactProbe compacted(const ProbeVolume& volume, size_t i) {
+    CompactProbe probe;
+    for (size_t k = 0; k < probe.irradiance.size(); ++k) {
+        const float value = volume.irradiance[i].coefficients[k / 3][static_cast<int>(k % 3)];
+        probe.irradiance[k] = glm::packHalf1x16(value / volume.info.compact_scale);
+    }
+    const glm::vec4 occlusion = volume.occlusion.empty() ? glm::vec4(1.0f) : volume.occlusion[i];
+    for (int k = 0; k < 4; ++k) {
+        probe.occlusion[static_cast<size_t>(k)] = glm::packHalf1x16(occlusion[k]);
+    }
+    probe.validity = glm::packHalf1x16(volume.validity.empty() ? 1.0f : volume.validity[i]);
+    return probe;
+}
+
 }  // namespace
 
 float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept {
@@ -53,22 +68,25 @@ void make_compact_probes(ProbeVolume& volume) {
     volume.compact.clear();
     volume.info.compact_scale = 0.0f;
     if (volume.irradiance.empty()) return;
-    const float scale = compact_scale(largest_coefficient(volume.irradiance));
-    volume.info.compact_scale = scale;
+    volume.info.compact_scale = compact_scale(largest_coefficient(volume.irradiance));
     volume.compact.resize(volume.irradiance.size());
-    for (size_t i = 0; i < volume.compact.size(); ++i) {
-        CompactProbe& probe = volume.compact[i];
-        for (size_t k = 0; k < probe.irradiance.size(); ++k) {
-            const float value = volume.irradiance[i].coefficients[k / 3][static_cast<int>(k % 3)];
-            probe.irradiance[k] = glm::packHalf1x16(value / scale);
-        }
-        const glm::vec4 occlusion =
-            volume.occlusion.empty() ? glm::vec4(1.0f) : volume.occlusion[i];
-        for (int k = 0; k < 4; ++k) {
-            probe.occlusion[static_cast<size_t>(k)] = glm::packHalf1x16(occlusion[k]);
-        }
-        probe.validity = glm::packHalf1x16(volume.validity.empty() ? 1.0f : volume.validity[i]);
+    for (size_t i = 0; i < volume.compact.size(); ++i) volume.compact[i] = compacted(volume, i);
+}
+
+void update_compact_probes(ProbeVolume& volume, std::span<const uint32_t> changed) {
+    float scale = volume.info.compact_scale;
+    for (const uint32_t i : changed) {
+        if (i >= volume.irradiance.size()) break;
+        scale = std::max(scale, compact_scale(largest_coefficient({&volume.irradiance[i], 1})));
     }
+    if (volume.irradiance.empty() || volume.compact.empty() || scale > volume.info.compact_scale) {
+        return make_compact_probes(volume);
+    }
+    const size_t old_size = volume.compact.size();
+    volume.compact.resize(volume.irradiance.size());
+    for (size_t i = old_size; i < volume.compact.size(); ++i)
+        volume.compact[i] = compacted(volume, i);
+    for (const uint32_t i : changed) volume.compact[i] = compacted(volume, i);
 }
 
 uint32_t count_wrong_compact_probes(const ProbeVolumeView& volume) noexcept {

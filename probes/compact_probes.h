@@ -13,6 +13,10 @@ namespace tetralight {
 /// Without irradiance there are no compact probes.
 void make_compact_probes(ProbeVolume& volume);
 
+/// The same after the light of some probes has changed. Others are written only if there are more
+/// probes than before, or if the scale is too small: it grows, and never shrinks.
+void update_compact_probes(ProbeVolume& volume, std::span<const uint32_t> changed);
+
 /// The largest |coefficient| that a volume's light may have. Irradiance in any direction, which
 /// adds nine of them, is finite then.
 inline constexpr float kLargestCoefficient = 1e37f;

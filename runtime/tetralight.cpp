@@ -245,7 +245,8 @@ tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** vol
 tetralight_status tetralight_verify(const tetralight_volume* volume,
                                     tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
-    const auto status = verify(volume->file);
+    if (!volume->file) return succeed(error);
+    const auto status = verify(*volume->file);
     if (!status) return finish(file_error(status.error()), error);
     return succeed(error);
 }

@@ -288,6 +288,57 @@ TETRALIGHT_API tetralight_status
 tetralight_pack_instances(const tetralight_volume* volume, const tetralight_instances* instances,
                           tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** Volumes that join and leave while a game runs, and that together light what is between them:
+ * streamed cells of a level, prefabs.
+ *
+ *     tetralight_joined_create(&joined, &error);
+ *     const tetralight_volume* volume = tetralight_joined_volume(joined);   // for queries
+ *     tetralight_joined_add(joined, "hall", hall, &error);
+ *     while (in_each_frame) {
+ *         uint32_t is_ready = 0;
+ *         tetralight_joined_step(joined, 500, &is_ready, &error);
+ *         if (is_ready) tetralight_joined_commit(joined, &error);
+ *     }
+ *
+ * Each call must run alone on its `joined`, but queries of its volume may run beside add, remove
+ * and step. */
+typedef struct tetralight_joined tetralight_joined;
+
+/** No volumes. Destroy `*joined` after use. */
+TETRALIGHT_API tetralight_status
+tetralight_joined_create(tetralight_joined** joined, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Destroys `joined` and its volume; does nothing if it is NULL. */
+TETRALIGHT_API void tetralight_joined_destroy(tetralight_joined* joined) TETRALIGHT_NOEXCEPT;
+
+/** Orders that a volume joins, under a name that no other has. It must neither be closed nor
+ * recombined until it has left and `tetralight_joined_commit` was called. */
+TETRALIGHT_API tetralight_status tetralight_joined_add(tetralight_joined* joined, const char* name,
+                                                       const tetralight_volume* part,
+                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Orders that a volume leaves. */
+TETRALIGHT_API tetralight_status tetralight_joined_remove(
+    tetralight_joined* joined, const char* name, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Works on what was ordered for about this long. `*is_ready` becomes 1 once all of it is done, and
+ * 0 before. All is made anew in one call for the first volumes, for probes in a plane, nearer to
+ * each other than a millimetre, or far outside of those before. If memory is short, queries go on
+ * as before, and the next call begins anew. */
+TETRALIGHT_API tetralight_status
+tetralight_joined_step(tetralight_joined* joined, uint32_t budget_microseconds, uint32_t* is_ready,
+                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Queries read what is ready from now on. No query may run meanwhile. Without effect if nothing is
+ * ready. Hints from before stay useful. */
+TETRALIGHT_API tetralight_status
+tetralight_joined_commit(tetralight_joined* joined, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The volume that queries read: the same pointer until `joined` is destroyed. It has no layers:
+ * its light is that of the volumes as they joined. NULL if `joined` is NULL. */
+TETRALIGHT_API const tetralight_volume* tetralight_joined_volume(const tetralight_joined* joined)
+    TETRALIGHT_NOEXCEPT;
+
 /** Packs 27 coefficients of irradiance, all finite, as the 28 floats of TETRALIGHT_SH_PACKED.
  * Thread-safe. */
 TETRALIGHT_API tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,

@@ -19,7 +19,7 @@ using detail::view_of;
 
 /// Bytes that `store_light` allocates.
 size_t memory_of_light(const tetralight_volume& volume) {
-    const ProbeVolumeView& from = volume.file.view();
+    const ProbeVolumeView& from = volume.source;
     size_t bytes = sizeof(Layer) * from.layers.size();
     if (volume.irradiance.empty()) bytes += from.irradiance.size_bytes();
     if (volume.compact.empty()) bytes += from.compact.size_bytes();
@@ -29,7 +29,7 @@ size_t memory_of_light(const tetralight_volume& volume) {
 /// The light of the file's layers with these weights, in place of what queries read.
 void store_light(tetralight_volume& volume, std::span<const float> weights,
                  const RecombinedInfo& info) {
-    const ProbeVolumeView& from = volume.file.view();
+    const ProbeVolumeView& from = volume.source;
     const size_t count = from.positions.size();
     if (from.irradiance.size() == count) volume.irradiance.resize(count);
     if (from.compact.size() == count && volume.compact.empty()) {
@@ -71,7 +71,7 @@ tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t
 tetralight_status tetralight_recombine(tetralight_volume* volume, const float* weights,
                                        size_t weight_count, tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
-    const ProbeVolumeView& from = volume->file.view();
+    const ProbeVolumeView& from = volume->source;
     if (from.layers.empty()) {
         return finish({TETRALIGHT_NOT_THERE, "the volume holds no layers"}, error);
     }

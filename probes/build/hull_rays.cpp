@@ -41,14 +41,15 @@ struct Hull {
     std::vector<std::array<uint32_t, 3>> cells;
 };
 
-Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& source) {
+Hull make_hull(std::span<const glm::dvec3> positions, std::span<const Cell> hull_cells,
+               Dimension dimension) {
     Hull hull;
-    hull.cells.reserve(source.cells.size() - source.inner_cell_count);
+    hull.cells.reserve(hull_cells.size());
     std::vector<uint32_t> hull_index(positions.size(), kNoIndex);
-    for (size_t i = source.inner_cell_count; i < source.cells.size(); ++i) {
+    for (const Cell& source : hull_cells) {
         std::array<uint32_t, 3> cell{kNoIndex, kNoIndex, kNoIndex};
-        for (int k = 0; k < cell_vertex_count(source.dimension) - 1; ++k) {
-            const uint32_t probe = source.cells[i].vertices[k];
+        for (int k = 0; k < cell_vertex_count(dimension) - 1; ++k) {
+            const uint32_t probe = source.vertices[k];
             if (hull_index[probe] == kNoIndex) {
                 hull_index[probe] = static_cast<uint32_t>(hull.vertices.size());
                 hull.vertices.push_back({positions[probe]});
@@ -191,18 +192,25 @@ int find_radial_steps(Hull& hull) {
 
 HullRays make_hull_rays(std::span<const glm::dvec3> positions,
                         const Tetrahedralization& tetrahedralization) {
-    Hull hull = make_hull(positions, tetrahedralization);
+    return make_hull_rays(
+        positions, std::span(tetrahedralization.cells).subspan(tetrahedralization.inner_cell_count),
+        tetrahedralization.dimension, tetrahedralization.axis);
+}
+
+HullRays make_hull_rays(std::span<const glm::dvec3> positions, std::span<const Cell> hull_cells,
+                        Dimension dimension, const glm::dvec3& axis) {
+    Hull hull = make_hull(positions, hull_cells, dimension);
     if (hull.cells.empty()) return {};
     HullRays rays;
     normalize(hull);
-    if (tetrahedralization.dimension == Dimension::Space) {
+    if (dimension == Dimension::Space) {
         add_triangle_normals(hull);
         rays.radial_fraction = static_cast<float>(find_radial_steps(hull)) / kFractionSteps;
     } else {
-        if (tetrahedralization.dimension == Dimension::Plane) {
-            add_edge_normals(hull, tetrahedralization.axis);
+        if (dimension == Dimension::Plane) {
+            add_edge_normals(hull, axis);
         }
-        set_rays(hull, tetrahedralization.dimension == Dimension::Line ? 1.0 : 0.0);
+        set_rays(hull, dimension == Dimension::Line ? 1.0 : 0.0);
     }
     rays.cells.reserve(hull.cells.size());
     for (const auto& cell : hull.cells) {

@@ -22,4 +22,9 @@ struct HullRays {
 [[nodiscard]] HullRays make_hull_rays(std::span<const glm::dvec3> positions,
                                       const Tetrahedralization& tetrahedralization);
 
+/// The same of hull cells alone. `axis`: that of the tetrahedralization.
+[[nodiscard]] HullRays make_hull_rays(std::span<const glm::dvec3> positions,
+                                      std::span<const Cell> hull_cells, Dimension dimension,
+                                      const glm::dvec3& axis);
+
 }  // namespace tetralight

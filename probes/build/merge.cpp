@@ -10,8 +10,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
 #include <tetralight/probes/build/detail/snap_to_lattice.h>
-#include <tetralight/probes/build/detail/weld.h>
-#include <tetralight/probes/build/hilbert_order.h>
+#include <tetralight/probes/build/detail/weld_sources.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 
@@ -63,28 +62,6 @@ Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
         positions.push_back(p + 0.0);  // -0 becomes 0: equal positions have equal bits
     }
     return positions;
-}
-
-/// Welds positions, one for each source, and sets the probe of each source.
-void weld_sources(std::span<const glm::dvec3> positions, double tolerance, MergedProbes& merged) {
-    std::vector<glm::dvec3> distinct;
-    distinct.reserve(positions.size());
-    for (const uint32_t i : hilbert_order(positions)) {
-        if (distinct.empty() || distinct.back() != positions[i]) distinct.push_back(positions[i]);
-        merged.sources[i].probe = static_cast<uint32_t>(distinct.size() - 1);
-    }
-    const detail::Weld weld = detail::weld(distinct, tolerance);
-    merged.weld_radius = weld.radius;
-    std::vector<uint32_t> place(distinct.size());
-    merged.positions.reserve(distinct.size());
-    for (uint32_t i = 0; i < distinct.size(); ++i) {
-        if (weld.representatives[i] != i) continue;
-        place[i] = static_cast<uint32_t>(merged.positions.size());
-        merged.positions.push_back(distinct[i]);
-    }
-    for (ProbeSource& source : merged.sources) {
-        source.probe = place[weld.representatives[source.probe]];
-    }
 }
 
 }  // namespace
@@ -140,7 +117,7 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
             ErrorCode::InvalidArgument,
             str_cat(positions.size(), " probes are more than 32-bit cell indices can name")};
     }
-    weld_sources(positions, settings.weld_tolerance, merged);
+    detail::weld_sources(positions, settings.weld_tolerance, merged);
     return merged;
 }
 

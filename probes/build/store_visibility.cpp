@@ -109,6 +109,17 @@ std::vector<uint8_t> edge_codes(const ProbeEdges& edges, const ProbeVolumeView& 
     return codes;
 }
 
+KnownWalls::KnownWalls(const ProbeVolumeView& volume)
+    : edges_(volume), codes_(edge_codes(edges_, volume)), splits_(split_list(volume)) {}
+
+uint8_t KnownWalls::code(uint32_t from, uint32_t to) const noexcept {
+    return edges_.contains(from, to) ? codes_[edges_.find(from, to)] : uint8_t{kUnknownEdge};
+}
+
+bool KnownWalls::is_split(uint32_t from, uint32_t a, uint32_t b) const noexcept {
+    return std::ranges::binary_search(splits_, SplitEdges{from, std::min(a, b), std::max(a, b)});
+}
+
 void copy_visibility(const ProbeVolumeView& from, ProbeVolume& to) {
     to.visibility_blocks.clear();
     to.cell_visibility.clear();
@@ -116,22 +127,21 @@ void copy_visibility(const ProbeVolumeView& from, ProbeVolume& to) {
     const detail::PositionTable table(from.exact_positions);
     std::vector<uint32_t> twins;
     for (const glm::dvec3& position : to.exact_positions) twins.push_back(table.find(position));
-    const ProbeEdges old_edges(from), edges(to.view());
-    const std::vector<uint8_t> old_codes = edge_codes(old_edges, from);
+    const KnownWalls known(from);
+    const ProbeEdges edges(to.view());
     std::vector<uint8_t> codes;
     for (uint32_t probe = 0; probe < twins.size(); ++probe) {
         for (const uint32_t target : edges.targets(probe)) {
             const uint32_t a = twins[probe], b = twins[target];
-            const bool is_old = a != kNoIndex && b != kNoIndex && old_edges.contains(a, b);
-            codes.push_back(is_old ? old_codes[old_edges.find(a, b)] : uint8_t{kUnknownEdge});
+            const bool is_old = a != kNoIndex && b != kNoIndex;
+            codes.push_back(is_old ? known.code(a, b) : uint8_t{kUnknownEdge});
         }
     }
     store_visibility(edges, codes, to);
-    const SplitList splits = split_list(from);
     set_all_splits(to, [&](uint32_t probe, uint32_t a, uint32_t b) {
-        const uint32_t old_a = std::min(twins[a], twins[b]), old_b = std::max(twins[a], twins[b]);
-        if (twins[probe] == kNoIndex || old_b == kNoIndex) return false;
-        return std::ranges::binary_search(splits, SplitEdges{twins[probe], old_a, old_b});
+        const bool are_old =
+            twins[probe] != kNoIndex && twins[a] != kNoIndex && twins[b] != kNoIndex;
+        return are_old && known.is_split(twins[probe], twins[a], twins[b]);
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,6 +46,24 @@ void set_all_splits(ProbeVolume& volume, IsSplit is_split) {
 /// `kUnknownEdge` if the volume knows no walls. Precondition: the volume passes `verify`.
 [[nodiscard]] std::vector<uint8_t> edge_codes(const ProbeEdges& edges,
                                               const ProbeVolumeView& volume);
+
+/// What a volume knows of the walls between its probes, by edges.
+class KnownWalls {
+  public:
+    /// Precondition: the volume passes `verify` and knows walls. It need not stay.
+    explicit KnownWalls(const ProbeVolumeView& volume);
+
+    /// The code of the edge from one probe to another; `kUnknownEdge` if there is none.
+    [[nodiscard]] uint8_t code(uint32_t from, uint32_t to) const noexcept;
+
+    /// Whether different walls block the edges from a probe to two others.
+    [[nodiscard]] bool is_split(uint32_t from, uint32_t a, uint32_t b) const noexcept;
+
+  private:
+    ProbeEdges edges_;
+    std::vector<uint8_t> codes_;
+    std::vector<std::array<uint32_t, 3>> splits_;  // from, then a < b; sorted
+};
 
 /// Copies what a volume knows of walls to another one: the codes of edges between probes of exactly
 /// the same world positions. Other edges are unknown, which counts as free. Precondition: both have

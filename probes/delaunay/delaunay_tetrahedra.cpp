@@ -16,8 +16,8 @@ using detail::cell_of;
 using detail::corner_of;
 using glm::dvec3;
 
-/// The corners of the triangle opposite each corner, in the same sense for all four: clockwise seen
-/// from outside.
+/// The corners of the triangle opposite each corner, in the same sense for all four:
+/// counter-clockwise seen from outside.
 constexpr uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Neighbors are 4 · cell + corner in 32 bits.
@@ -46,7 +46,24 @@ uint32_t DelaunayTetrahedra::last_vertex() const {
 }
 
 void DelaunayTetrahedra::clear() {
+    const bool was_tracking = is_tracking_;
     *this = DelaunayTetrahedra(memory_);
+    is_tracking_ = was_tracking;
+    is_made_anew_ = was_tracking;
+}
+
+void DelaunayTetrahedra::forget_changes() {
+    changed_cells_.clear();
+    is_made_anew_ = false;
+}
+
+bool DelaunayTetrahedra::reserve_changes(size_t count) {
+    return !is_tracking_ || changed_cells_.reserve(changed_cells_.size() + count);
+}
+
+/// Precondition: there is room.
+void DelaunayTetrahedra::note_change(uint32_t cell) {
+    if (is_tracking_) changed_cells_.push_back(cell);
 }
 
 detail::GrowingArray<DelaunayCell> DelaunayTetrahedra::take_cells() {
@@ -144,6 +161,8 @@ bool DelaunayTetrahedra::find_first_cell(std::span<const uint32_t> vertices,
 /// The first tetrahedron, with a ghost behind each of its triangles.
 bool DelaunayTetrahedra::begin(const std::array<uint32_t, 4>& corners) {
     constexpr size_t kCellCount = 5;
+    changed_cells_.clear();
+    is_made_anew_ = true;
     const size_t expected = positions_.size() * 7 + kCellCount;
     if (!reserve_cells(std::min<size_t>(expected, kMostCells))) return false;
     cells_.push_back({corners, {}});
@@ -309,9 +328,11 @@ uint32_t DelaunayTetrahedra::take_cell() {
 bool DelaunayTetrahedra::fill_cavity() {
     if (!free_cells_.reserve(free_cells_.size() + cavity_.size())) return false;
     if (!reserve_cells(cells_.size() + facets_.size())) return false;
+    if (!reserve_changes(cavity_.size() + 2 * facets_.size())) return false;
     for (const uint32_t cell : cavity_) {
         cells_[cell].vertices[0] = DelaunayCell::kFree;
         free_cells_.push_back(cell);
+        note_change(cell);
     }
     uint32_t last_ghost = DelaunayCell::kFree;
     for (Facet& facet : facets_) {
@@ -321,6 +342,8 @@ bool DelaunayTetrahedra::fill_cavity() {
         cell.vertices = facet.vertices;
         cell.neighbors[facet.corner] = facet.outside;
         marks_[facet.cell] = 0;
+        note_change(facet.cell);
+        note_change(cell_of(facet.outside));
         cells_[cell_of(facet.outside)].neighbors[corner_of(facet.outside)] =
             4 * facet.cell + facet.corner;
     }
@@ -455,6 +478,8 @@ bool DelaunayTetrahedra::rebuild() {
     cells_.clear();
     marks_.clear();
     free_cells_.clear();
+    changed_cells_.clear();
+    is_made_anew_ = true;
     return insert_all({});
 }
 
@@ -552,9 +577,12 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
     if (!free_cells_.reserve(free_cells_.size() + cavity_.size())) return Filled::OutOfMemory;
     if (!reserve_cells(cells_.size() + patch.cells_.size()) || !inside.reserve(patch.cells_.size()))
         return Filled::OutOfMemory;
+    if (!reserve_changes(cavity_.size() + patch.cells_.size() + facets_.size()))
+        return Filled::OutOfMemory;
     for (const uint32_t cell : cavity_) {
         cells_[cell].vertices[0] = DelaunayCell::kFree;
         free_cells_.push_back(cell);
+        note_change(cell);
     }
     const auto add = [&](uint32_t patch_cell) {
         if (becomes[patch_cell] != kNone) return;
@@ -562,6 +590,7 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
         cells_[becomes[patch_cell]].vertices = mapped(patch.cells_[patch_cell]);
         marks_[becomes[patch_cell]] = 0;
         inside.push_back(patch_cell);
+        note_change(becomes[patch_cell]);
     };
     for (uint32_t cell = 0; cell < patch.cells_.size(); ++cell) {
         if (patch.cells_[cell].is_free()) continue;
@@ -578,6 +607,7 @@ DelaunayTetrahedra::Filled DelaunayTetrahedra::fill_hole(const DelaunayTetrahedr
             if (facet != kNone) {
                 const uint32_t outside = facets_[facet].outside;
                 facets_[facet].cell = here;
+                note_change(cell_of(outside));
                 cells_[here].neighbors[corner] = outside;
                 cells_[cell_of(outside)].neighbors[corner_of(outside)] = 4 * here + corner;
                 continue;

@@ -16,7 +16,7 @@ namespace tetralight {
 /// A tetrahedron of `DelaunayTetrahedra`, positively oriented: dot(b − a, cross(c − a, d − a)) > 0.
 ///
 /// Behind each triangle of the hull is a cell whose last vertex is kGhost; its triangle a, b, c is
-/// clockwise seen from outside, as if the ghost were a point there.
+/// counter-clockwise seen from outside, as if the ghost were a point there.
 struct DelaunayCell {
     static constexpr uint32_t kGhost = 0;
     static constexpr uint32_t kFree = 0xffff'ffffu;
@@ -69,6 +69,20 @@ class DelaunayTetrahedra {
 
     void clear();
 
+    /// From now on, `changed_cells` are kept.
+    void track_changes() { is_tracking_ = true; }
+
+    /// Indices of cells that became others, became free, or have another neighbor, since the last
+    /// `forget_changes`; some of them several times.
+    [[nodiscard]] std::span<const uint32_t> changed_cells() const {
+        return {changed_cells_.begin(), changed_cells_.size()};
+    }
+
+    /// True if all cells were made anew instead.
+    [[nodiscard]] bool is_made_anew() const { return is_made_anew_; }
+
+    void forget_changes();
+
     /// `cells`, alone: the set is empty then, and what it kept for changes is freed.
     [[nodiscard]] detail::GrowingArray<DelaunayCell> take_cells();
 
@@ -116,6 +130,8 @@ class DelaunayTetrahedra {
     [[nodiscard]] bool link_by_sorting();
     void begin_round();
     [[nodiscard]] bool reserve_cells(size_t count);
+    [[nodiscard]] bool reserve_changes(size_t count);
+    void note_change(uint32_t cell);
     [[nodiscard]] uint32_t take_cell();
 
     MemorySource memory_;
@@ -125,11 +141,14 @@ class DelaunayTetrahedra {
     /// For each cell: round + 1 if it is in the cavity of this round, round if it is known not to.
     detail::GrowingArray<uint32_t> marks_{memory_};
     detail::GrowingArray<LocalNumber> local_numbers_{memory_};  // by vertex
+    detail::GrowingArray<uint32_t> changed_cells_{memory_};
     detail::GrowingArray<uint32_t> free_cells_{memory_}, free_vertices_{memory_};
     detail::GrowingArray<uint32_t> cavity_{memory_};
     detail::GrowingArray<Facet> facets_{memory_};
     detail::GrowingArray<std::array<uint32_t, 3>> sides_{memory_};
     std::array<uint32_t, kTableSize * kTableSize> table_{};
+    bool is_tracking_ = false;
+    bool is_made_anew_ = false;
     uint32_t round_ = 0;
     uint32_t last_cell_ = 0;
 };

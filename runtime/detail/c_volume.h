@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/tetralight.h>
 
-/// What the C API's handle holds: a file, and the light that took the place of the file's.
+/// What the C API's handle holds: a file, and the light that took the place of the file's. Or what
+/// volumes that joined are together.
 struct tetralight_volume {
     explicit tetralight_volume(tetralight::ProbeFile from)
-        : file(std::move(from)), view(file.view()) {}
+        : file(std::move(from)), source(file->view()), view(source) {}
 
-    tetralight::ProbeFile file;
+    explicit tetralight_volume(const tetralight::ProbeVolumeView& joined)
+        : source(joined), view(joined) {}
+
+    std::optional<tetralight::ProbeFile> file;
+    /// The volume as it is in the file.
+    tetralight::ProbeVolumeView source;
     /// What queries read.
     tetralight::ProbeVolumeView view;
     std::vector<tetralight::IrradianceSh> irradiance;

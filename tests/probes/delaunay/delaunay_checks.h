@@ -96,7 +96,7 @@ inline void expect_locally_delaunay(const DelaunayTetrahedra& delaunay) {
                                           position(beyond)),
                           0);
             } else if (corner != 3) {
-                // The triangle is clockwise seen from outside: nothing lies beyond it.
+                // The triangle is counter-clockwise seen from outside: nothing lies beyond it.
                 ASSERT_LE(
                     exact_orientation(position(a), position(b), position(c), position(beyond)), 0);
             }
