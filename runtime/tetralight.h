@@ -323,8 +323,8 @@ TETRALIGHT_API tetralight_status tetralight_joined_remove(
 
 /** Works on what was ordered for about this long. `*is_ready` becomes 1 once all of it is done, and
  * 0 before. All is made anew in one call for the first volumes, for probes in a plane, nearer to
- * each other than a millimetre, or far outside of those before. If memory is short, queries go on
- * as before, and the next call begins anew. */
+ * each other than a millimetre, or far outside of those before. If memory is short, the call
+ * returns TETRALIGHT_OUT_OF_RESOURCES, queries go on as before, and the next call begins anew. */
 TETRALIGHT_API tetralight_status
 tetralight_joined_step(tetralight_joined* joined, uint32_t budget_microseconds, uint32_t* is_ready,
                        tetralight_error* error) TETRALIGHT_NOEXCEPT;

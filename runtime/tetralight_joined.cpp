@@ -42,6 +42,9 @@ tetralight_status tetralight_joined_add(tetralight_joined* joined, const char* n
     if (auto wrong = check_pointer("joined", joined)) return finish(wrong, error);
     if (auto wrong = check_pointer("name", name)) return finish(wrong, error);
     if (auto wrong = check_pointer("part", part)) return finish(wrong, error);
+    if (part == &joined->volume) {
+        return finish({TETRALIGHT_BAD_VALUE, "volumes cannot join themselves"}, error);
+    }
     const auto status = joined->joined.add(name, part->view);
     return status ? succeed(error) : finish(status.error(), error);
 }

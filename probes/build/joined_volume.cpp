@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 #include <tetralight/probes/build/detail/following_cells.h>
 #include <tetralight/probes/build/detail/joined_light.h>
 #include <tetralight/probes/build/detail/spread.h>
@@ -22,11 +23,29 @@
 #include <tetralight/probes/build/hull_rays.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/delaunay/delaunay_tetrahedra.h>
+#include <tetralight/probes/farthest_position.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Why a volume cannot join others; empty if it can.
+std::string what_is_wrong(const ProbeVolumeView& part) {
+    const size_t count = part.probe_count();
+    if (part.exact_positions.size() != count) return "it has no exact positions";
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec3& p = part.exact_positions[i];
+        if (is_finite(p) && glm::length(p) <= kFarthestPosition) continue;
+        return str_cat("the position of probe ", i, " is not finite or beyond 1e18 (", p.x, ", ",
+                       p.y, ", ", p.z, ")");
+    }
+    const auto fits = [&](const auto& values) { return values.empty() || values.size() == count; };
+    const bool is_whole = fits(part.irradiance) && fits(part.occlusion) && fits(part.validity) &&
+                          fits(part.health) && fits(part.rendering_layers);
+    return is_whole ? "" : "it has light of another number of probes";
+}
 
 /// Returns out_of_resources if there is no memory of this size. (Containers end a program that is
 /// built without exceptions; docs/decisions/0037-memory-through-the-c-api.md.)
@@ -35,7 +54,7 @@ Status check_memory(size_t byte_count) {
     ::operator delete(memory);
     if (memory != nullptr) return Ok{};
     return Error{ErrorCode::OutOfResources,
-                 str_cat("there are no ", byte_count, " bytes of memory for joined volumes")};
+                 str_cat("cannot allocate ", byte_count, " bytes for joined volumes")};
 }
 
 }  // namespace
@@ -380,12 +399,10 @@ Status JoinedVolume::State::make_anew() {
     return Ok{};
 }
 
-/// Cells that were written, the copies behind the last one, and those around probes whose light
-/// comes from another part now.
+/// Cells that were written, and those around probes whose light comes from another part now.
 std::vector<uint32_t> JoinedVolume::State::cells_to_light() const {
-    std::vector<bool> is_listed(volume.cells.size(), cells.written().empty());
+    std::vector<bool> is_listed(cells.count(), cells.written().empty());
     for (const uint32_t cell : cells.written()) is_listed[cell] = true;
-    std::fill(is_listed.begin() + cells.count(), is_listed.end(), true);
     std::vector<bool> is_changed(positions.size(), false);
     for (const uint32_t probe : changed) is_changed[probe] = true;
     std::vector<uint32_t> result;
@@ -418,7 +435,7 @@ void JoinedVolume::State::write_changes() {
     detail::set_light(lit_parts(), sources, changed, volume);
     const auto knows_walls = [](const auto& entry) { return entry.second.walls.has_value(); };
     walls.set(std::ranges::any_of(parts, knows_walls) ? cells_to_light() : std::vector<uint32_t>(),
-              sources, volume);
+              cells.count(), sources, volume);
     changed.clear();
     volume.sources.clear();
     volume.group_names.clear();
@@ -440,17 +457,16 @@ JoinedVolume::JoinedVolume(JoinedVolume&&) noexcept = default;
 JoinedVolume& JoinedVolume::operator=(JoinedVolume&&) noexcept = default;
 
 Status JoinedVolume::add(std::string_view name, const ProbeVolumeView& part) {
-    const auto invalid = [&](const char* what) {
+    const auto invalid = [&](const std::string& what) {
         return Error{ErrorCode::InvalidArgument, "name", std::string(name),
                      str_cat("volume \"", name, "\": ", what)};
     };
-    if (name.empty() || name.find('\n') != std::string_view::npos) {
-        return invalid("a name has at least one character, and no line break");
+    if (name.empty()) return invalid("it has no name");
+    if (const auto status = check_characters(name); !status) {
+        return status.error().in("the name of a volume");
     }
     if (state_->will_have(name)) return invalid("there is one of this name");
-    if (part.exact_positions.size() != part.probe_count()) {
-        return invalid("it has no exact positions");
-    }
+    if (const std::string wrong = what_is_wrong(part); !wrong.empty()) return invalid(wrong);
     State::Order order;
     order.name = name;
     order.is_add = true;

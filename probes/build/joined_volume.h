@@ -16,14 +16,16 @@ namespace tetralight {
 /// streams its level or opens prefabs:
 ///
 ///     JoinedVolume joined;
-///     require(joined.add("level", level.view()));
-///     while (!*joined.step(std::chrono::microseconds(500))) draw_a_frame(joined.view());
-///     joined.commit();
+///     if (auto status = joined.add("level", level.view()); !status) return status.error();
+///     // In each frame:
+///     const auto is_ready = joined.step(std::chrono::microseconds(500));
+///     if (!is_ready) return is_ready.error();
+///     if (*is_ready) joined.commit();
 ///
-/// The cost is that of the probes that come or go, not of those that are there, with three
-/// exceptions, in which all is made anew in one `step`: the first volume; volumes whose probes lie
-/// in a plane, or nearer to each other than `merge` leaves them; and probes far outside of what
-/// there was.
+/// The cost is that of the probes that come or go, not of those that are there, with four
+/// exceptions, in which all is made anew in one `step`: the first volumes; while all probes lie in
+/// a plane or on a line; while some are so near to each other that `merge` welds them; and when
+/// probes come that are twice as far from the origin as those before.
 ///
 /// Cells are those of one Delaunay tetrahedralization of all probes. After any history they are the
 /// same, up to their order: `canonical` has the bytes of a volume that was made at once.
@@ -37,8 +39,9 @@ class JoinedVolume {
     JoinedVolume& operator=(JoinedVolume&&) noexcept;
 
     /// Orders that a volume joins. It must stay where it is until it has left and `commit` was
-    /// called. Returns invalid_argument if one of this name is there or was ordered, or if it has
-    /// no exact positions.
+    /// called. Returns invalid_argument if one of this name is there or was ordered, if the name is
+    /// empty or has control characters or bytes that are not UTF-8, or if the volume has no exact
+    /// positions, one that is not finite or beyond 1e18, or light of another number of probes.
     Status add(std::string_view name, const ProbeVolumeView& part);
 
     /// Orders that a volume leaves. Returns not_found if there is none of this name, and none was
@@ -54,7 +57,8 @@ class JoinedVolume {
     /// are invalid. Without effect until `step` returned true.
     void commit();
 
-    /// The volume that queries read.
+    /// The volume that queries read. `verify` is for `canonical`: here copies of a hull cell may
+    /// stand at the end of `cells`.
     [[nodiscard]] ProbeVolumeView view() const;
 
     /// The volume of the parts that are there once all that `step` has finished is committed, in

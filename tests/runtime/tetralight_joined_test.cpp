@@ -106,6 +106,8 @@ TEST_F(CApiJoined, SaysWhatIsWrong) {
     ASSERT_EQ(tetralight_joined_add(joined, "a", hall, &error), TETRALIGHT_OK);
     EXPECT_EQ(tetralight_joined_add(joined, "a", yard, &error), TETRALIGHT_BAD_VALUE);
     EXPECT_STREQ(error.message, "volume \"a\": there is one of this name");
+    EXPECT_EQ(tetralight_joined_add(joined, "self", tetralight_joined_volume(joined), &error),
+              TETRALIGHT_BAD_VALUE);
     EXPECT_EQ(tetralight_joined_commit(nullptr, &error), TETRALIGHT_BAD_POINTER);
     EXPECT_EQ(tetralight_joined_volume(nullptr), nullptr);
     EXPECT_EQ(tetralight_joined_step(joined, 0, &is_ready, nullptr), TETRALIGHT_OK);

@@ -60,12 +60,17 @@ void FollowingCells::write_all(const DelaunayTetrahedra& tetrahedra, std::vector
         put(slot, source[slot].is_finite() ? begins[std::ranges::min(source[slot].vertices)]++
                                            : next_hull++);
     }
-    cells.clear();
-    cells.reserve(count_ + count_ / kSpare);
-    cells.resize(count_);
+    if (count_ > cells.capacity()) cells.reserve(count_ + count_ / kSpare);
+    cells.resize(std::max<size_t>(cells.size(), count_));
     for (uint32_t place = 0; place < count_; ++place) {
         cells[place] = cell_of(tetrahedra, slots_[place]);
     }
+    fill_end(cells);
+}
+
+/// Copies of a hull cell behind the others.
+void FollowingCells::fill_end(std::vector<Cell>& cells) const {
+    for (size_t place = count_; place < cells.size(); ++place) cells[place] = cells[inner_count_];
 }
 
 /// Which changed cells keep their place, need one, or leave one vacant.
@@ -180,7 +185,7 @@ void FollowingCells::write_changes(const DelaunayTetrahedra& tetrahedra, std::ve
         for (const uint32_t neighbor : tetrahedra.cells()[slot].neighbors) write(neighbor / 4);
     }
     for (const uint32_t place : written_) is_marked_[slots_[place]] = 0;
-    for (size_t place = count_; place < cells.size(); ++place) cells[place] = cells[inner_count_];
+    fill_end(cells);
 }
 
 }  // namespace tetralight::detail

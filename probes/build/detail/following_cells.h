@@ -41,6 +41,7 @@ class FollowingCells {
     void place_hull(Changes& changes);
     void put(uint32_t slot, uint32_t place);
     void move(uint32_t from, uint32_t to, Changes& changes);
+    void fill_end(std::vector<Cell>& cells) const;
     [[nodiscard]] Cell cell_of(const DelaunayTetrahedra& tetrahedra, uint32_t slot) const;
 
     std::vector<uint32_t> places_;    // the index of the cell of each DelaunayCell, or kNoIndex

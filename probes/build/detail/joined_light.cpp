@@ -75,10 +75,11 @@ void JoinedWalls::set_all(Sources sources, ProbeVolume& volume) {
     stored_.clear();
     std::vector<uint32_t> all(volume.cells.size());
     for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    set(all, sources, volume);
+    set(all, static_cast<uint32_t>(all.size()), sources, volume);
 }
 
-void JoinedWalls::set(std::span<const uint32_t> cells, Sources sources, ProbeVolume& volume) {
+void JoinedWalls::set(std::span<const uint32_t> cells, uint32_t end, Sources sources,
+                      ProbeVolume& volume) {
     if (!knows_walls(sources)) {
         visibility_.clear();
         stored_.clear();
@@ -89,11 +90,15 @@ void JoinedWalls::set(std::span<const uint32_t> cells, Sources sources, ProbeVol
     }
     visibility_.resize(volume.cells.size());
     stored_.resize((volume.cells.size() + 31) / 32, 0);
-    for (const uint32_t cell : cells) {
-        const auto visibility = visibility_of(volume.cells[cell], sources);
+    const auto set = [&](uint32_t cell, const std::optional<CellVisibility>& visibility) {
         const uint32_t bit = uint32_t{1} << (cell % 32);
         stored_[cell / 32] = (stored_[cell / 32] & ~bit) | (visibility ? bit : 0);
         visibility_[cell] = visibility.value_or(CellVisibility());
+    };
+    for (const uint32_t cell : cells) set(cell, visibility_of(volume.cells[cell], sources));
+    if (end < volume.cells.size()) {
+        const auto copied = visibility_of(volume.cells[end], sources);
+        for (uint32_t cell = end; cell < volume.cells.size(); ++cell) set(cell, copied);
     }
     store(volume);
 }

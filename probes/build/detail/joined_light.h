@@ -37,8 +37,9 @@ class JoinedWalls {
     /// Of all cells.
     void set_all(std::span<const LightSource> sources, ProbeVolume& volume);
 
-    /// Of some cells, when others are as they were.
-    void set(std::span<const uint32_t> cells, std::span<const LightSource> sources,
+    /// Of some cells, when others are as they were. Those from `end` on are copies of the first
+    /// hull cell.
+    void set(std::span<const uint32_t> cells, uint32_t end, std::span<const LightSource> sources,
              ProbeVolume& volume);
 
   private:

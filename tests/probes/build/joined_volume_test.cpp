@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -19,6 +20,7 @@
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/seed_grid.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
@@ -134,6 +136,11 @@ void expect_as_if_made_at_once(const JoinedVolume& joined) {
     EXPECT_TRUE(light_of(view) == light_of(expected.view()));
     EXPECT_TRUE(walls_of(view) == walls_of(expected.view()));
     EXPECT_EQ(view.group_names, expected.group_names);
+    // Searches begin at cells that are there.
+    for (const glm::vec3& position : view.positions) {
+        const uint64_t word = find_seed_word(view.seed_grid, position);
+        EXPECT_LT(seed_cell(view.seed_grid, word, position), view.cells.size());
+    }
     ASSERT_EQ(view.sources.size(), expected.sources.size());
     for (size_t i = 0; i < view.sources.size(); ++i) {
         const ProbeSource &ours = view.sources[i], &theirs = expected.sources[i];
@@ -306,10 +313,20 @@ TEST(JoinedVolume, RefusesNamesThatAreThereAndThoseThatAreNot) {
     EXPECT_FALSE(joined.remove("a"));
     EXPECT_FALSE(joined.add("", part.view()));
     EXPECT_FALSE(joined.add("two\nlines", part.view()));
+    EXPECT_FALSE(joined.add("\xff", part.view()));
     ProbeVolume floats = part;
     floats.exact_positions.clear();
     EXPECT_EQ(error_text(joined.add("b", floats.view()).error()),
               "volume \"b\": it has no exact positions");
+    ProbeVolume bad = part;
+    bad.exact_positions[3].x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(joined.add("b", bad.view()));
+    bad.exact_positions[3].x = 1e300;
+    EXPECT_FALSE(joined.add("b", bad.view()));
+    bad = part;
+    bad.irradiance.pop_back();
+    EXPECT_EQ(error_text(joined.add("b", bad.view()).error()),
+              "volume \"b\": it has light of another number of probes");
 }
 
 }  // namespace
