@@ -10,7 +10,7 @@
 
 namespace tetralight::detail {
 
-/// An array of plain values that grows, and that tells when there is no memory for it: `reserve`
+/// An array of plain values that grows, and that says when there is no memory for it: `reserve`
 /// returns false then, and nothing has changed. It does not set new values to anything.
 template <class T>
 class GrowingArray {
