@@ -130,6 +130,8 @@ struct JoinedVolume::State {
     detail::JoinedWalls walls;
     /// False: everything is made anew when orders are done.
     bool follows = false;
+    /// Something was ordered that no step has finished: also after one that failed at the end.
+    bool has_work = false;
     bool is_ready = false;
     /// What `tetrahedra` and `changed` say is not in the volume yet.
     bool must_write = false;
@@ -229,17 +231,10 @@ void JoinedVolume::State::begin_to_leave(Order& order) {
     for (const uint32_t index : part->second.order) {
         const uint32_t probe = part->second.probes[index];
         if (sources[probe].part != nullptr) continue;
+        if (probe_at.erase(positions[probe]) == 0) continue;  // two of its probes are one
         order.leaving.push_back(probe);
         changed.push_back(probe);
-        probe_at.erase(positions[probe]);
     }
-    // Two of its probes may be one.
-    std::vector<bool> is_listed(positions.size(), false);
-    std::erase_if(order.leaving, [&](uint32_t probe) {
-        const bool was_listed = is_listed[probe];
-        is_listed[probe] = true;
-        return was_listed;
-    });
     parts.erase(part);
 }
 
@@ -475,6 +470,7 @@ Status JoinedVolume::add(std::string_view name, const ProbeVolumeView& part) {
     if (!part.visibility_blocks.empty()) order.part.walls.emplace(part);
     state_->orders.push_back(std::move(order));
     state_->is_ready = false;
+    state_->has_work = true;
     return Ok{};
 }
 
@@ -487,12 +483,13 @@ Status JoinedVolume::remove(std::string_view name) {
     order.name = name;
     state_->orders.push_back(std::move(order));
     state_->is_ready = false;
+    state_->has_work = true;
     return Ok{};
 }
 
 Result<bool> JoinedVolume::step(std::chrono::nanoseconds budget) {
     State& state = *state_;
-    if (state.is_ready || state.orders.empty()) return true;
+    if (!state.has_work) return true;
     constexpr std::chrono::nanoseconds kOneProbe = std::chrono::microseconds(10);
     constexpr int64_t kLeast = 8, kMost = 4096;
     const auto batch = static_cast<size_t>(std::clamp<int64_t>(budget / kOneProbe, kLeast, kMost));
@@ -511,6 +508,7 @@ Result<bool> JoinedVolume::step(std::chrono::nanoseconds budget) {
         state.follows = false;
         return status.error();
     }
+    state.has_work = false;
     state.is_ready = true;
     return true;
 }

@@ -302,6 +302,40 @@ TEST(JoinedVolume, TakesFlatNearAndFarProbes) {
     EXPECT_EQ(joined.view().probe_count(), 0u);
 }
 
+TEST(JoinedVolume, BeginsAnewAfterMemoryWasShort) {
+    const ProbeVolume level = part_at(glm::dvec3(0.0), 300, 10);
+    const ProbeVolume room = part_at(glm::dvec3(0.3), 100, 11);
+    bool is_short = true;
+    MemorySource memory;
+    memory.context = &is_short;
+    memory.resize = [](void* context, void* block, size_t byte_count) -> void* {
+        if (byte_count > 0 && *static_cast<bool*>(context)) return nullptr;
+        return MemorySource().resize(nullptr, block, byte_count);
+    };
+    JoinedVolume joined({}, memory);
+    const auto fail_and_retry = [&] {
+        const auto before = cells_of(joined.view());
+        is_short = true;
+        for (int i = 0; i < 2; ++i) {
+            const auto step = joined.step(std::chrono::seconds(1));
+            ASSERT_FALSE(step);
+            EXPECT_EQ(step.error().code, ErrorCode::OutOfResources);
+            joined.commit();
+            EXPECT_TRUE(cells_of(joined.view()) == before);
+        }
+        is_short = false;
+        finish(joined);
+        joined.commit();
+        expect_as_if_made_at_once(joined);
+    };
+    ASSERT_TRUE(joined.add("level", level.view()));
+    fail_and_retry();
+    EXPECT_EQ(joined.view().probe_count(), 300u);
+    ASSERT_TRUE(joined.add("room", room.view()));
+    fail_and_retry();
+    EXPECT_EQ(joined.view().probe_count(), 400u);
+}
+
 TEST(JoinedVolume, RefusesNamesThatAreThereAndThoseThatAreNot) {
     const ProbeVolume part = part_at(glm::dvec3(0.0), 50, 7);
     JoinedVolume joined;
