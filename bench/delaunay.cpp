@@ -54,14 +54,6 @@ void contest(const std::string& name, const Positions& positions, const Options&
     require(our_cells == their_cells, contest.figure + ": tetrahedra differ from CGAL's");
 }
 
-Positions lattice(int side) {
-    Positions positions;
-    for (int i = 0; i < side * side * side; ++i) {
-        positions.emplace_back(0.5 * (i % side), 0.5 * (i / side % side), 0.5 * (i / side / side));
-    }
-    return positions;
-}
-
 template <class Make>
 Positions make_positions(size_t count, const Make& make) {
     std::mt19937_64 random(1);
@@ -114,7 +106,7 @@ void bench_delaunay(const Options& options) {
     contest("paraboloid", make_positions(kCount, on_paraboloid), options);
     if (options.is_quick) return;
     contest("1m", random_positions(1'000'000, 3, 1.0), options);
-    contest("lattice", lattice(100), options);
+    contest("lattice", lattice_positions(100, 0.5), options);
 }
 
 }  // namespace tetralight::bench

@@ -110,6 +110,14 @@ std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double ext
     return positions;
 }
 
+std::vector<glm::dvec3> lattice_positions(int side, double step) {
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i < side * side * side; ++i) {
+        positions.push_back(step * glm::dvec3(i % side, i / side % side, i / side / side));
+    }
+    return positions;
+}
+
 glm::vec3 uniform_direction(glm::vec2 u) {
     const float z = 1.0f - 2.0f * u.x;
     const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));

@@ -73,6 +73,9 @@ void require(bool is_right, const std::string& what);
 
 [[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
 
+/// `side` positions along each axis, `step` apart.
+[[nodiscard]] std::vector<glm::dvec3> lattice_positions(int side, double step);
+
 /// A direction that is uniform on the sphere for uniform numbers.
 [[nodiscard]] glm::vec3 uniform_direction(glm::vec2 u);
 

@@ -15,14 +15,6 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 
-std::vector<glm::dvec3> lattice(int side) {
-    std::vector<glm::dvec3> positions;
-    for (int i = 0; i < side * side * side; ++i) {
-        positions.emplace_back(i % side, i / side % side, i / side / side);
-    }
-    return positions;
-}
-
 void build(const std::string& name, std::vector<glm::dvec3> positions, const Options& options) {
     std::vector<Kernel::Point_3> points;
     for (const glm::dvec3& p : positions) points.emplace_back(p.x, p.y, p.z);
@@ -73,7 +65,7 @@ void bytes_per_probe() {
 void slivers(int side) {
     glm::dmat4 placed = glm::translate(glm::dmat4(1.0), glm::dvec3(123.4, 5.6, -78.9));
     placed = glm::rotate(placed, 0.7, glm::dvec3(1, 2, 3));
-    std::vector<glm::dvec3> positions = lattice(side);
+    std::vector<glm::dvec3> positions = lattice_positions(side, 1.0);
     for (glm::dvec3& p : positions) p = glm::dvec3(placed * glm::dvec4(p, 1.0));
     const auto sliver_percent = [](const ProbeVolume& volume) {
         const std::span cells = std::span(volume.cells).first(volume.info.inner_cell_count);
@@ -109,7 +101,7 @@ void bench_tetrahedralize(const Options& options) {
     report("tetrahedralize.peak_memory", 1e-6 * peak_memory({"tetrahedralize", "--only", "memory"}),
            "MB");
     build("1m", random_positions(1'000'000, 3, 1.0), options);
-    build("lattice", lattice(100), options);
+    build("lattice", lattice_positions(100, 1.0), options);
 }
 
 }  // namespace tetralight::bench

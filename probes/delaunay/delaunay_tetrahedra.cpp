@@ -498,7 +498,7 @@ bool DelaunayTetrahedra::remove_all(std::span<const uint32_t> vertices) {
         free_vertices_.push_back(vertex);
     }
     if (!has_cells) return true;
-    if (facets_.is_empty()) return rebuild();  // the hole is everything
+    if (facets_.is_empty()) return rebuild();  // every cell has a removed vertex
     detail::GrowingArray<uint32_t> rim(memory_);
     detail::GrowingArray<dvec3> places(memory_);
     detail::GrowingArray<uint32_t> numbers(memory_);
