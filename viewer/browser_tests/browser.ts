@@ -2,6 +2,8 @@
 // Debian's Chromium with software rendering.
 import {Browser, BrowserContext, chromium, Locator, Page} from 'playwright-core';
 
+import {kPatience} from './patience';
+
 export const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 let browser: Browser | null = null;
@@ -9,6 +11,7 @@ let browser: Browser | null = null;
 async function launch(): Promise<Browser> {
     browser ??= await chromium.launch({
         executablePath: kChromium,
+        timeout: kPatience,
         args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader',
                '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
     });
@@ -32,7 +35,7 @@ export interface Options {
 export async function newContext(options: Options = {}): Promise<BrowserContext> {
     const {width = 960, height = 540, colorScheme = 'light'} = options;
     const context = await (await launch()).newContext({viewport: {width, height}, colorScheme});
-    context.setDefaultTimeout(120_000);
+    context.setDefaultTimeout(kPatience);
     return context;
 }
 

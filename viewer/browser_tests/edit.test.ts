@@ -75,8 +75,8 @@ test('groups are edited, undone, saved and baked again, and the change is seen',
 test('nothing of what was joined while editing stays on the server', async () => {
     const names = async (kind: string) => (await server.request<Record<string, {name: string}[]>>(
         'GET', `/v1/${kind}`))[kind].map(file => file.name).sort();
-    await expect.poll(() => names('groups'), {timeout: 60_000}).toEqual(['edited']);
-    await expect.poll(() => names('volumes'), {timeout: 60_000}).toEqual(['after', 'court']);
+    await expect.poll(() => names('groups')).toEqual(['edited']);
+    await expect.poll(() => names('volumes')).toEqual(['after', 'court']);
 });
 
 test('probes are chosen by box and click, and moved by handles and keys', () => visit(
@@ -218,7 +218,7 @@ test('a bake shows its progress and is cancelled', () => visit(server.url + '/#t
     await row.locator('.facts', {hasText: / of /}).waitFor();
     await cancel.focus();
     const before = await row.locator('.facts').textContent();
-    await expect.poll(() => row.locator('.facts').textContent(), {timeout: 60_000}).not.toBe(before);
+    await expect.poll(() => row.locator('.facts').textContent()).not.toBe(before);
     const hasFocus = (name: string) => row.getByRole('button', {name}).evaluate(one => one === document.activeElement);
     expect(await hasFocus('Cancel')).toBe(true);
     await page.keyboard.press('Enter');

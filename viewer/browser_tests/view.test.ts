@@ -106,7 +106,7 @@ test('without a weight left, scene and sky are black', () => visit(server.url, a
     }
     expect(before).toBeGreaterThan(0.5);
     // The ball of the tab Query takes its light from an answer, which comes later.
-    await expect.poll(brightest, {timeout: 10000}).toBeLessThan(1e-3);
+    await expect.poll(brightest).toBeLessThan(1e-3);
 }));
 
 test('light that is stored is what the page names', () => visit(server.url, async page => {
