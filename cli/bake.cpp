@@ -25,6 +25,7 @@ struct Bake {
     std::vector<std::string> group_paths;
     bool only_given_groups = false;
     std::string output;
+    std::string prepared_path;
     BakeVolumeSettings settings;
     BakeStoring storing;
     bool is_explained = false;
@@ -37,6 +38,7 @@ struct Bake {
           group_paths(values.texts("groups")),
           only_given_groups(values.flag("only_given_groups")),
           output(values.text("output")),
+          prepared_path(values.text("prepared")),
           settings(bake_settings(values)),
           storing(values),
           is_explained(values.flag("explain")),
@@ -61,6 +63,7 @@ struct Bake {
     [[nodiscard]] std::vector<std::string> inputs() const {
         std::vector<std::string> paths = scene_options.inputs();
         paths.insert(paths.end(), group_paths.begin(), group_paths.end());
+        if (!prepared_path.empty()) paths.push_back(prepared_path);
         return paths;
     }
 
@@ -86,14 +89,21 @@ struct Bake {
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        auto files = all_groups(*scene);
-        if (!files) return files.error();
-
-        auto prepared = prepare_bake(*scene, files->groups(), settings);
-        if (!prepared) return located(*files, prepared.error());
-        group_files = std::move(*files);
+        auto prepared = prepare(*scene);
+        if (!prepared) return prepared.error();
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
+    }
+
+    /// Reads the probes and cells, or makes them of the groups.
+    [[nodiscard]] Result<PreparedBake> prepare(Scene& scene) {
+        if (!prepared_path.empty()) return read_prepared_bake(prepared_path, scene, settings);
+        auto files = all_groups(scene);
+        if (!files) return files.error();
+        auto prepared = prepare_bake(scene, files->groups(), settings);
+        if (!prepared) return located(*files, prepared.error());
+        group_files = std::move(*files);
+        return prepared;
     }
 
     /// Bakes, writes and reports, and then removes what was kept on the way.
@@ -119,7 +129,8 @@ struct Bake {
     }
 
     Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
-        if (auto status = write_part(output, prepared, baked.partial); !status) return status;
+        const auto write = prepared_path.empty() ? write_part : write_light_part;
+        if (auto status = write(output, prepared, baked.partial); !status) return status;
         report_range(common, {output, settings.bake, seconds, baked.stored.earlier_ray_count},
                      baked.partial, prepared.capture_positions.size());
         return Ok{};

@@ -15,14 +15,20 @@ namespace {
 
 struct Merge {
     std::vector<std::string> parts;
+    std::string prepared;
     std::string output;
     CommonOptions common;
 
     explicit Merge(const Values& values)
-        : parts(values.texts("parts")), output(values.text("output")), common(values) {}
+        : parts(values.texts("parts")),
+          prepared(values.text("prepared")),
+          output(values.text("output")),
+          common(values) {}
 
     Status run() {
-        if (auto status = check_output(output, parts); !status) return status;
+        std::vector<std::string> inputs = parts;
+        if (!prepared.empty()) inputs.push_back(prepared);
+        if (auto status = check_output(output, inputs); !status) return status;
         const bool has_lightmaps = is_lightmap_file(parts[0]);
         if (auto status =
                 check_output_kind(parts[0], output, has_lightmaps ? "lightmaps" : "probes");
@@ -50,7 +56,8 @@ struct Merge {
     }
 
     [[nodiscard]] Status merge_probes() const {
-        const auto merged = merge_parts(parts);
+        const auto merged =
+            prepared.empty() ? merge_parts(parts) : merge_light_parts(prepared, parts);
         if (!merged) return merged.error();
         common.warn(merged->report.warnings);
         const ProbeVolumeView volume = merged->volume.view();

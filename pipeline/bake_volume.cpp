@@ -13,13 +13,8 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/bake_metadata.h>
-#include <tetralight/pipeline/dilate_probes.h>
-#include <tetralight/pipeline/probe_warnings.h>
-#include <tetralight/pipeline/split_light.h>
 #include <tetralight/pipeline/walls_metadata.h>
 #include <tetralight/probes/build/make_probe_volume.h>
-#include <tetralight/probes/build/merge_warnings.h>
-#include <tetralight/probes/compact_probes.h>
 
 namespace tetralight {
 namespace {
@@ -87,53 +82,6 @@ void store_unseen(const TraceScene& traced, PreparedBake& prepared) {
     report.unseen_seconds = watch.seconds();
 }
 
-void store_light(const BakedProbes& baked, ProbeVolume& volume) {
-    for (const RadianceSh& radiance : baked.radiance) {
-        volume.irradiance.push_back(irradiance_from_radiance(radiance));
-    }
-    volume.validity = baked.validity;
-    for (size_t i = 0; i < volume.health.size(); ++i) {
-        volume.health[i].standard_error = baked.standard_error[i];
-    }
-}
-
-/// Warns of probes whose standard error is above the target after all samples or all the time.
-void add_target_warning(const BakeStatistics& statistics, double target_error, size_t probe_count,
-                        std::vector<std::string>& warnings) {
-    if (statistics.over_target_count == 0) return;
-    warnings.push_back(str_cat(statistics.over_target_count, " of ", probe_count,
-                               " probes have a standard error above ", target_error, " (the worst ",
-                               statistics.worst_error, ") with the samples and the time they had"));
-}
-
-void remove_ringing(const MergedProbes& merged, const DeringSettings& settings,
-                    ProbeVolume& volume) {
-    if (volume.layers.empty()) {
-        dering_probes(merged, settings, volume.irradiance);
-    } else {
-        dering_layers(dering_asked_for(merged, settings), settings.window, volume);
-    }
-    auto marks = dering_marks(merged, settings);
-    const bool is_any = std::ranges::any_of(marks, [](uint8_t mark) { return mark != 0; });
-    if (is_any || !volume.transfer.empty()) volume.dering = std::move(marks);
-}
-
-/// Changes baked light as settings and adjustment volumes ask, then rounds it to halves.
-void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport& report) {
-    const BakeVolumeSettings& settings = prepared.settings;
-    if (settings.health.invalid == InvalidProbes::Dilate) {
-        report.dilated_count = dilate_probes(prepared.is_invalid, volume);
-    }
-    store_rest(volume);
-    add_dark_warnings(prepared.merged, volume.irradiance, settings.bake.sample_count,
-                      report.warnings);
-    override_probes(prepared.overrides, volume);
-    remove_ringing(prepared.merged, settings.dering, volume);
-    copy_reused(prepared.reused, volume);
-    make_compact_probes(volume);
-    sum_layers(volume);
-}
-
 }  // namespace
 
 Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup> groups,
@@ -186,29 +134,6 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     store_unseen(*traced, prepared);
     prepared.key = bake_key(prepared);
     return prepared;
-}
-
-BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeAccumulator> accumulators,
-                        std::span<const double> split_rows) {
-    TETRALIGHT_ASSERT(accumulators.size() == prepared.volume.positions.size(),
-                      "one for each probe");
-    BakedProbes baked = make_baked_probes(accumulators);
-    copy_reused(prepared.reused, baked);
-    ProbeVolume volume = std::move(prepared.volume);
-    BakeReport report = std::move(prepared.report);
-    store_light(baked, volume);
-    store_split(accumulators, split_rows, volume);
-    copy_reused(prepared.reused, volume);
-
-    const double target_error = prepared.settings.bake.target_error;
-    report.ray_count = baked.ray_count;
-    report.reused_count = prepared.reused.probes.size();
-    report.statistics = bake_statistics(baked, target_error);
-    const auto merge_lines = merge_warnings(prepared.merged, volume.info.dimension);
-    report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());
-    add_target_warning(report.statistics, target_error, accumulators.size(), report.warnings);
-    finish_light(prepared, volume, report);
-    return {std::move(volume), std::move(report)};
 }
 
 Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> groups,

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <tetralight/base/contract.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/pipeline/finish_bake.h>
 #include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/pipeline/walls_metadata.h>
@@ -89,26 +91,51 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
+/// What the volume of a part keeps of the bake's report.
+void restore_report(PreparedBake& bake) {
+    bake.report.visibility = stored_visibility(bake.volume.view());
+    if (const auto walls = read_walls(bake.volume.metadata)) bake.report.unseen = walls->unseen;
+}
+
 }  // namespace
 
 Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
     auto parts = read_parts<PartFile>(paths, read_part, "scene, groups, settings");
     if (!parts) return parts.error();
     PreparedBake& bake = parts->prepared;
-    const ProbeVolume& volume = bake.volume;
-    if (auto status = check_cover(parts->files, {"probe", volume.positions.size()}); !status)
-        return status.error();
+    const size_t count = bake.volume.positions.size();
+    if (auto status = check_cover(parts->files, {"probe", count}); !status) return status.error();
 
-    std::vector<ProbeAccumulator> accumulators;
-    std::vector<double> rows;
-    for (const PartialBake& partial : parts->partials) {
-        append(accumulators, partial.accumulators);
-        append(rows, partial.split_rows);
-        bake.reused.append(partial.reused);
+    restore_report(bake);
+    BakeFinisher finisher(std::move(bake));
+    for (const PartialBake& partial : parts->partials) finisher.add(partial);
+    return std::move(finisher).finish();
+}
+
+Result<BakedVolume> merge_light_parts(const std::string& prepared_path,
+                                      const std::vector<std::string>& paths) {
+    TETRALIGHT_ASSERT(!paths.empty(), "there is nothing to merge");
+    auto prepared = read_prepared_bake(prepared_path);
+    if (!prepared) return prepared.error();
+    std::vector<FileRange> files;
+    for (const std::string& path : paths) {
+        const auto range = light_part_range(path, *prepared);
+        if (!range) return range.error();
+        files.push_back({path, *range});
     }
-    bake.report.visibility = stored_visibility(volume.view());
-    if (const auto walls = read_walls(volume.metadata)) bake.report.unseen = walls->unseen;
-    return finish_bake(std::move(bake), accumulators, rows);
+    std::ranges::sort(files, {}, [](const FileRange& file) {
+        return std::tuple(file.range.begin, file.range.end, file.path);
+    });
+    const size_t count = prepared->volume.positions.size();
+    if (auto status = check_cover(files, {"probe", count}); !status) return status.error();
+    restore_report(*prepared);
+    BakeFinisher finisher(std::move(*prepared));
+    for (const FileRange& file : files) {
+        const auto light = read_light_part(file.path, finisher.prepared());
+        if (!light) return light.error();
+        finisher.add(*light);
+    }
+    return std::move(finisher).finish();
 }
 
 Result<BakedLightmaps> merge_lightmap_parts(const std::vector<std::string>& paths,

@@ -18,6 +18,11 @@ namespace tetralight {
 /// Precondition: at least one path.
 [[nodiscard]] Result<BakedVolume> merge_parts(const std::vector<std::string>& paths);
 
+/// The same for parts of a prepared bake (`write_light_part`), of which one is in memory at a time.
+/// Precondition: at least one path.
+[[nodiscard]] Result<BakedVolume> merge_light_parts(const std::string& prepared_path,
+                                                    const std::vector<std::string>& paths);
+
 /// The same for parts of lightmaps, whose texels have to be in exactly one part. The report has no
 /// times and no warnings of UVs and lights. `thread_count`: 0 = all.
 [[nodiscard]] Result<BakedLightmaps> merge_lightmap_parts(const std::vector<std::string>& paths,

@@ -50,4 +50,31 @@ struct PartFile {
 /// accumulators. Errors name the path.
 [[nodiscard]] Result<PartFile> read_part(const std::string& path);
 
+// Many parts of a large bake share one prepared bake, and hold its light alone.
+
+/// Writes a part without probes, and the capture positions.
+[[nodiscard]] Status write_prepared_bake(const std::string& path, const PreparedBake& prepared);
+
+/// Reads what `write_prepared_bake` wrote for a bake of this scene with these settings; the report
+/// is empty. Returns invalid_argument for another file or another bake. Errors name the path.
+[[nodiscard]] Result<PreparedBake> read_prepared_bake(const std::string& path, const Scene& scene,
+                                                      const BakeVolumeSettings& settings);
+
+/// The same without its scene, for `BakeFinisher`: without the settings that only the key depends
+/// on.
+[[nodiscard]] Result<PreparedBake> read_prepared_bake(const std::string& path);
+
+/// Writes the light of a range, without cells.
+[[nodiscard]] Status write_light_part(const std::string& path, const PreparedBake& prepared,
+                                      const PartialBake& partial);
+
+/// The range that a part of a prepared bake has. Reads two pages of the file. Returns
+/// invalid_argument if it is not the light of a part, or of another bake.
+[[nodiscard]] Result<PlaceRange> light_part_range(const std::string& path,
+                                                  const PreparedBake& prepared);
+
+/// Reads and verifies what `write_light_part` wrote. Errors name the path.
+[[nodiscard]] Result<PartialBake> read_light_part(const std::string& path,
+                                                  const PreparedBake& prepared);
+
 }  // namespace tetralight

@@ -70,32 +70,35 @@ LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept {
     return layout;
 }
 
-void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
-                 ProbeVolume& volume) {
+void store_split(size_t first, std::span<const ProbeAccumulator> accumulators,
+                 std::span<const double> rows, ProbeVolume& volume) {
     const LightGroupLayout layout = split_layout(volume.view());
     TETRALIGHT_ASSERT(rows.size() == layout.size() * accumulators.size(), "one row a probe");
-    volume.layer_irradiance.resize(volume.layers.size() * accumulators.size());
+    const size_t count = volume.positions.size();
+    volume.layer_irradiance.resize(volume.layers.size() * count);
     volume.layer_errors.resize(volume.layer_irradiance.size());
-    if (layout.has_transfer) volume.transfer.resize(accumulators.size());
-    if (layout.has_occlusion) volume.occlusion.resize(accumulators.size());
+    if (layout.has_transfer) volume.transfer.resize(count);
+    if (layout.has_occlusion) volume.occlusion.resize(count);
     for (size_t i = 0; i < accumulators.size(); ++i) {
+        const size_t probe = first + i;
         const auto row = rows.subspan(i * layout.size(), layout.size());
         // A probe without samples (its light is reused) keeps zeros here.
         const auto directions =
             static_cast<double>(std::max<uint64_t>(accumulators[i].sample_count, 1));
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
-            layer_light(volume, layer)[i] =
+            layer_light(volume, layer)[probe] =
                 irradiance_from_row(row.subspan(layer * LightGroupLayout::kLayerSize), directions);
         }
         const std::vector<float> errors = layer_errors(layout, accumulators[i], row);
         for (size_t layer = 0; layer < errors.size(); ++layer) {
-            volume.layer_errors[layer * accumulators.size() + i] = errors[layer];
+            volume.layer_errors[layer * count + probe] = errors[layer];
         }
         if (layout.has_transfer) {
-            volume.transfer[i] = transfer_from_row(row.subspan(layout.direct_begin()), directions);
+            volume.transfer[probe] =
+                transfer_from_row(row.subspan(layout.direct_begin()), directions);
         }
         if (layout.has_occlusion) {
-            volume.occlusion[i] = occlusion_from_row(row.subspan(layout.occlusion_begin()));
+            volume.occlusion[probe] = occlusion_from_row(row.subspan(layout.occlusion_begin()));
         }
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <tetralight/bake/light_plan.h>
@@ -17,11 +18,11 @@ namespace tetralight {
 /// occlusion if it has occlusion lights.
 [[nodiscard]] LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept;
 
-/// Fills layers (but for "rest"), the errors of all layers, transfer and occlusion from `rows`, one
-/// an accumulator.
+/// Fills layers (but for "rest"), the errors of all layers, transfer and occlusion of probes
+/// `first`, `first` + 1, ... from `rows`, one an accumulator.
 /// Precondition: rows of `split_layout(volume)`.
-void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
-                 ProbeVolume& volume);
+void store_split(size_t first, std::span<const ProbeAccumulator> accumulators,
+                 std::span<const double> rows, ProbeVolume& volume);
 
 /// Fills layer "rest", if there is one, with the total minus all other layers: the sum of all
 /// layers in order then has the bits of the total, or differs by the rounding of one addition.

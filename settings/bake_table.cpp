@@ -112,6 +112,13 @@ constexpr Setting kStoring[] = {
      .unit = "probes",
      .without = "all probes",
      .access = Access::Command},
+    {.name = "prepared",
+     .type = Type::Path,
+     .help = "Take the probes and cells from this file, which `tetralight plan` wrote, instead of "
+             "making them from the groups; the part then holds light alone",
+     .without = "made from the groups",
+     .needs = "probes",
+     .access = Access::Command},
     kResume,
     kChunks,
     kStore,

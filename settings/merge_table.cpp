@@ -14,7 +14,13 @@ constexpr Setting parts() {
 }
 
 constexpr Setting kFiles[] = {
-    parts(), output_file(".probes .lightmaps", "Probe volume or lightmaps to write (- = stdout)")};
+    parts(),
+    {.name = "prepared",
+     .type = Type::Path,
+     .help = "The probes and cells of parts that were baked with --prepared",
+     .without = "the parts have them",
+     .access = Access::Command},
+    output_file(".probes .lightmaps", "Probe volume or lightmaps to write (- = stdout)")};
 
 constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
 
