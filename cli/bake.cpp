@@ -3,16 +3,14 @@
 #include <utility>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/cli/bake_inputs.h>
 #include <tetralight/cli/bake_report.h>
-#include <tetralight/cli/bake_settings.h>
 #include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/explain.h>
-#include <tetralight/cli/group_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
-#include <tetralight/cli/scene_options.h>
 #include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/probes/probe_file.h>
@@ -21,12 +19,8 @@ namespace tetralight::cli {
 namespace {
 
 struct Bake {
-    SceneOptions scene_options;
-    std::vector<std::string> group_paths;
-    bool only_given_groups = false;
+    BakeInputs inputs;
     std::string output;
-    std::string prepared_path;
-    BakeVolumeSettings settings;
     BakeStoring storing;
     bool is_explained = false;
     bool checks_leaks = false;
@@ -34,12 +28,8 @@ struct Bake {
     GroupFiles group_files;
 
     explicit Bake(const Values& values)
-        : scene_options(values),
-          group_paths(values.texts("groups")),
-          only_given_groups(values.flag("only_given_groups")),
+        : inputs(values),
           output(values.text("output")),
-          prepared_path(values.text("prepared")),
-          settings(bake_settings(values)),
           storing(values),
           is_explained(values.flag("explain")),
           checks_leaks(values.flag("check_leaks")),
@@ -47,63 +37,26 @@ struct Bake {
         if (output.empty() && !is_explained) require(values, "output");
     }
 
-    [[nodiscard]] Result<GroupFiles> all_groups(Scene& scene) const {
-        auto files = GroupFiles::read(group_paths);
-        if (!files || only_given_groups) return files;
-        files->add(scene_options.path, std::move(scene.probe_groups));
-        if (files->groups().empty()) {
-            return Error{ErrorCode::NotFound, "groups", "",
-                         scene_options.path +
-                             ": the scene has no probe groups; give some with --groups, made by "
-                             "`tetralight grid` for example"};
-        }
-        return files;
-    }
-
-    [[nodiscard]] std::vector<std::string> inputs() const {
-        std::vector<std::string> paths = scene_options.inputs();
-        paths.insert(paths.end(), group_paths.begin(), group_paths.end());
-        if (!prepared_path.empty()) paths.push_back(prepared_path);
-        return paths;
-    }
-
-    /// An error with the file that it is about: that of a group, or the scene.
-    [[nodiscard]] Error located(const GroupFiles& files, const Error& error) const {
-        return error.field.starts_with("lights[") ? error.in(scene_options.path)
-                                                  : files.locate(error);
-    }
-
     Status run() { return is_explained ? run_explain() : run_bake(); }
 
     [[nodiscard]] Status run_explain() const {
-        const auto scene = scene_options.read();
+        const auto scene = inputs.scene_options.read();
         if (!scene) return scene.error();
         common.warn(warnings_beside_parts(*scene));
-        return explain(*scene, settings.lighting, common);
+        return explain(*scene, inputs.settings.lighting, common);
     }
 
     Status run_bake() {
-        if (auto status = check_output(output, inputs()); !status) return status;
-        if (auto status = storing.check_progress_file(inputs()); !status) return status;
+        if (auto status = check_output(output, inputs.paths()); !status) return status;
+        if (auto status = storing.check_progress_file(inputs.paths()); !status) return status;
         if (auto status = storing.open(); !status) return status;
-        auto scene = scene_options.read();
+        auto scene = inputs.scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        auto prepared = prepare(*scene);
+        auto prepared = inputs.prepare(*scene, group_files);
         if (!prepared) return prepared.error();
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
-    }
-
-    /// Reads the probes and cells, or makes them of the groups.
-    [[nodiscard]] Result<PreparedBake> prepare(Scene& scene) {
-        if (!prepared_path.empty()) return read_prepared_bake(prepared_path, scene, settings);
-        auto files = all_groups(scene);
-        if (!files) return files.error();
-        auto prepared = prepare_bake(scene, files->groups(), settings);
-        if (!prepared) return located(*files, prepared.error());
-        group_files = std::move(*files);
-        return prepared;
     }
 
     /// Bakes, writes and reports, and then removes what was kept on the way.
@@ -123,15 +76,17 @@ struct Bake {
     [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
                                                        const PreparedBake& prepared) {
         ProgressFile file(storing.progress_file);
-        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds, &file);
+        BakeProgressDisplay display(common.is_quiet, inputs.settings.bake.time_budget_seconds,
+                                    &file);
         return storing.bake(scene, prepared,
                             [&](const BakeProgress& progress) { return display.show(progress); });
     }
 
     Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
-        const auto write = prepared_path.empty() ? write_part : write_light_part;
+        const auto write = inputs.prepared_path.empty() ? write_part : write_light_part;
         if (auto status = write(output, prepared, baked.partial); !status) return status;
-        report_range(common, {output, settings.bake, seconds, baked.stored.earlier_ray_count},
+        report_range(common,
+                     {output, inputs.settings.bake, seconds, baked.stored.earlier_ray_count},
                      baked.partial, prepared.capture_positions.size());
         return Ok{};
     }
@@ -142,13 +97,13 @@ struct Bake {
             finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
         common.warn(group_files.locate(result.report.warnings));
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
-        const BakeRun run{output, settings.bake, seconds, baked.stored.earlier_ray_count};
+        const BakeRun run{output, inputs.settings.bake, seconds, baked.stored.earlier_ray_count};
         if (!checks_leaks) {
             report_volume(common, run, result);
             return Ok{};
         }
-        const auto leaks =
-            check_leaks(scene, result.volume.view(), {.thread_count = settings.bake.thread_count});
+        const auto leaks = check_leaks(scene, result.volume.view(),
+                                       {.thread_count = inputs.settings.bake.thread_count});
         if (!leaks) common.warn("light through walls could not be checked: ", leaks.error(), "");
         report_volume(common, run, result, leaks ? &*leaks : nullptr);
         return Ok{};

@@ -43,6 +43,7 @@ BakeStoring::BakeStoring(const Values& values)
       output_(values.text("output")),
       is_resumed_(values.flag("resume")),
       chunk_folder_(values.text("chunks")),
+      cache_folder_(has_setting(values, "cache") ? values.text("cache") : ""),
       store_folder_(values.text("store")),
       store_limit_(values.number("store_limit")),
       reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
@@ -88,6 +89,11 @@ Status BakeStoring::open() {
         if (!store) return store.error();
         shared_ = std::move(*store);
     }
+    if (!cache_folder_.empty()) {
+        auto store = BakeStore::open(cache_folder_);
+        if (!store) return store.error();
+        cache_ = std::move(*store);
+    }
     const std::string beside = path_beside();
     if (beside.empty() || (shared_ && !is_resumed_)) return Ok{};
     auto store = BakeStore::open(beside);
@@ -112,6 +118,7 @@ BakeStorage BakeStoring::storage() {
     if (shared_) storage.sources.push_back(&*shared_);
     if (beside_ && is_resumed_) storage.sources.push_back(&*beside_);
     storage.target = shared_ ? &*shared_ : beside_ ? &*beside_ : nullptr;
+    storage.cache = cache_ ? &*cache_ : nullptr;
     storage.is_saved_at_end = shared_.has_value();
     storage.is_required = !chunk_folder_.empty();
     if (storage.is_required) storage.save_seconds = kFrequentSaves;

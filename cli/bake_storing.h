@@ -13,7 +13,8 @@
 namespace tetralight::cli {
 
 /// What a bake bakes, and where light that is known already is kept: `resume`, `chunks`, `store`,
-/// `store_limit`, `progress_file`, of `bake` also `probes` and `reuse`, and of `lightmap` `texels`.
+/// `store_limit`, `progress_file`, of `bake` also `probes` and `reuse`, and of `lightmap` `texels`
+/// and `cache`.
 /// The places of `reflect` are its cubes.
 class BakeStoring {
   public:
@@ -62,11 +63,13 @@ class BakeStoring {
     std::string output_;
     bool is_resumed_ = false;
     std::string chunk_folder_;
+    std::string cache_folder_;
     std::string store_folder_;
     double store_limit_ = 0.0;  ///< gigabytes; 0: none
     std::string reuse_path_;
 
     std::optional<BakeStore> shared_;  ///< of `chunks` or `store`
+    std::optional<BakeStore> cache_;   ///< of `cache`
     std::optional<BakeStore> beside_;  ///< beside the output
     bool has_old_entries_ = false;     ///< `beside_` had some when it was opened
 };

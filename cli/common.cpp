@@ -23,9 +23,13 @@ std::string formatted(const char* format, double number, const char* unit) {
     return buffer + std::string(unit);
 }
 
+ReportCapture* g_capture = nullptr;
+
 void print_to(std::ostream& stream, const CommonOptions& common, const Json& json,
               const std::string& text) {
-    if (common.is_json) {
+    if (g_capture != nullptr) {
+        g_capture->report = json;
+    } else if (common.is_json) {
         stream << dump(with_warnings(json)) << '\n';
     } else if (!common.is_quiet) {
         stream << printable_lines(text) << '\n';
@@ -66,6 +70,14 @@ void CommonOptions::warn(const std::string& before, const Error& reason,
 void CommonOptions::warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const {
     if (volume.positions.empty() || !volume.irradiance.empty()) return;
     warn({path + ": the volume holds no light (it was not baked); probes light nothing"});
+}
+
+ReportCapture::ReportCapture() {
+    g_capture = this;
+}
+
+ReportCapture::~ReportCapture() {
+    g_capture = nullptr;
 }
 
 Json to_json(const glm::dvec3& value) {

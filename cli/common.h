@@ -36,6 +36,18 @@ struct CommonOptions {
     void warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const;
 };
 
+/// While it lives, the result of a command that runs within another one is kept here instead of
+/// printed. At most one at a time.
+class ReportCapture {
+  public:
+    ReportCapture();
+    ~ReportCapture();
+    ReportCapture(const ReportCapture&) = delete;
+    ReportCapture& operator=(const ReportCapture&) = delete;
+
+    Json report = Json::object();
+};
+
 [[nodiscard]] Json to_json(const glm::dvec3& value);
 /// Text for a terminal: one line, control characters shown as '?'.
 [[nodiscard]] std::string printable(const std::string& text);

@@ -3,13 +3,13 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
-#include <tetralight/cli/bake_settings.h>
 #include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/explain.h>
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/lightmap_report.h>
+#include <tetralight/cli/lightmap_settings.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/preview_files.h>
 #include <tetralight/cli/progress.h>
@@ -18,24 +18,11 @@
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
 #include <tetralight/pipeline/lightmap_part.h>
-#include <tetralight/pipeline/lightmap_settings.h>
 #include <tetralight/pipeline/preview_lightmaps.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
 
 namespace tetralight::cli {
 namespace {
-
-/// Samples are as many as were asked for, or as many as the default error takes.
-BakeLightmapsSettings lightmap_settings(const Values& values) {
-    BakeLightmapsSettings settings;
-    for_each_lightmap_setting(settings, [&](const char* name, auto& member, Recorded) {
-        read_if_any(values, name, member);
-    });
-    BakeSettings& bake = settings.bake;
-    if (takes_default_target(bake, values)) bake = with_default_texel_target(bake);
-    settings.layout.thread_count = settings.texels.thread_count = bake.thread_count;
-    return settings;
-}
 
 struct Lightmap {
     SceneOptions scene_options;

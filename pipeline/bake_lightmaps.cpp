@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include <tetralight/bake/lightmap/make_radiance_cache.h>
 #include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/bake/occlusion_channels.h>
 #include <tetralight/bake/path_tracer.h>
@@ -21,6 +20,7 @@
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/preview_lightmaps.h>
 #include <tetralight/pipeline/stored_bake.h>
+#include <tetralight/pipeline/stored_cache.h>
 #include <tetralight/pipeline/texel_lights.h>
 
 namespace tetralight {
@@ -342,13 +342,15 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
         places.surfaces.cache_key = cache_key(prepared);
         hooks.begin = [&]() -> Status {
             const Stopwatch watch;
-            auto made = make_radiance_cache(scene, prepared.layout, prepared.maps, prepared.texels,
-                                            settings, {}, callback);
+            auto made = stored_radiance_cache(scene, prepared, storage.cache, callback);
             if (!made) return made.error();
             cache = std::move(*made);
             bake.cache_seconds = watch.seconds();
             return Ok{};
         };
+    }
+    if (range.count() == 0 && hooks.begin && storage.cache != nullptr) {
+        if (auto status = hooks.begin(); !status) return status.error();
     }
     if (preview.show) {
         hooks.preview = [&] {

@@ -167,10 +167,11 @@ struct LightmapPreview {
 };
 
 /// Samples the light of a range of the baked texels, after a radiance cache of the light of all
-/// texels of the scene is made (`make_radiance_cache`), if the settings ask for it and any sample
-/// is missing. Texels that a store has, from an earlier bake of the same light at the same place,
-/// are loaded. Returns invalid_argument (field "texels") if the range is not within the baked
-/// texels, else the errors of `bake_accumulators` and of the storage.
+/// texels of the scene is made (`stored_radiance_cache`), if the settings ask for it and any sample
+/// is missing, or if there is a store for it and the range is empty. Texels that a store has, from
+/// an earlier bake of the same light at the same place, are loaded. Returns invalid_argument (field
+/// "texels") if the range is not within the baked texels, else the errors of `bake_accumulators`
+/// and of the storage.
 [[nodiscard]] Result<TexelBake> bake_texel_range(const Scene& scene,
                                                  const PreparedLightmaps& prepared,
                                                  PlaceRange range, const BakeStorage& storage = {},

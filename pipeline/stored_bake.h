@@ -25,6 +25,9 @@ struct BakeStorage {
     bool is_saved_at_end = false;
     /// Ends the bake with an error if it cannot be saved; else the bake goes on with a warning.
     bool is_required = false;
+    /// Of lightmaps: the store of their radiance cache, which is made if it is not there; null: it
+    /// is made and not kept.
+    BakeStore* cache = nullptr;
 };
 
 /// What a bake adds its samples to.

@@ -66,8 +66,7 @@ class CacheMaker {
           progress_(callback, texel_count()) {}
 
     Result<RadianceCache> run(const RadianceCacheSettings& cache_settings) {
-        add_maps();
-        add_instances();
+        cache_ = empty_radiance_cache(scene_, layout_, maps_, texels_);
         trust_texels();
         cache_.layer_count = settings_.plan.layer_count;
         cache_.irradiance.resize(texel_count());
@@ -84,26 +83,6 @@ class CacheMaker {
     enum class Purpose : uint32_t { Direct, Reflected };
 
     [[nodiscard]] size_t texel_count() const { return texels_.positions.size(); }
-
-    void add_maps() {
-        for (size_t i = 0; i < maps_.size(); ++i) {
-            const TexelMap& map = maps_[i];
-            RadianceCache::Map& added = cache_.maps.emplace_back();
-            added.width = map.width;
-            added.corner_uvs = layout_.packings[i].charts.corner_uvs;
-            added.texels.assign(map.charts.size(), kNoIndex);
-            for (uint32_t k = 0; k < map.texels.size(); ++k) added.texels[map.texels[k].index] = k;
-        }
-    }
-
-    void add_instances() {
-        for (size_t i = 0; i < layout_.places.size(); ++i) {
-            const double density =
-                layout_.texels_per_meter * double{scene_.instances[i].lightmap.scale};
-            cache_.instances.push_back({layout_.places[i].packing, texels_.first_texel[i],
-                                        static_cast<float>(1.0 / density)});
-        }
-    }
 
     template <class Work>
     void for_each_instance(const Work& work) const {
@@ -226,6 +205,25 @@ class CacheMaker {
 };
 
 }  // namespace
+
+RadianceCache empty_radiance_cache(const Scene& scene, const LightmapLayout& layout,
+                                   std::span<const TexelMap> maps, const LightmapTexels& texels) {
+    RadianceCache cache;
+    for (size_t i = 0; i < maps.size(); ++i) {
+        const TexelMap& map = maps[i];
+        RadianceCache::Map& added = cache.maps.emplace_back();
+        added.width = map.width;
+        added.corner_uvs = layout.packings[i].charts.corner_uvs;
+        added.texels.assign(map.charts.size(), kNoIndex);
+        for (uint32_t k = 0; k < map.texels.size(); ++k) added.texels[map.texels[k].index] = k;
+    }
+    for (size_t i = 0; i < layout.places.size(); ++i) {
+        const double density = layout.texels_per_meter * double{scene.instances[i].lightmap.scale};
+        cache.instances.push_back(
+            {layout.places[i].packing, texels.first_texel[i], static_cast<float>(1.0 / density)});
+    }
+    return cache;
+}
 
 Result<RadianceCache> make_radiance_cache(const Scene& scene, const LightmapLayout& layout,
                                           std::span<const TexelMap> maps,

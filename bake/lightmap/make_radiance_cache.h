@@ -21,6 +21,11 @@ struct RadianceCacheSettings {
     uint32_t path_count = 64;           ///< of reflected light
 };
 
+/// A cache that knows where texels are, and has none of their light.
+[[nodiscard]] RadianceCache empty_radiance_cache(const Scene& scene, const LightmapLayout& layout,
+                                                 std::span<const TexelMap> maps,
+                                                 const LightmapTexels& texels);
+
 /// Makes the cache of a bake of lightmaps: first the direct light of all texels, then their
 /// reflected light, by paths that take the direct light where they hit surfaces. All lights that
 /// the bake includes count, mixed ones with their direct light. Settings: the plan, the surfaces,

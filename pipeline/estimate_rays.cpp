@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/estimate_rays.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include <tetralight/bake/layer_errors.h>
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/round_plan.h>
+#include <tetralight/base/stopwatch.h>
+
+namespace tetralight {
+namespace {
+
+/// Of all places, a sixteenth is sampled, but not fewer or more than these.
+constexpr size_t kFewest = 64;
+constexpr size_t kMost = 1024;
+constexpr size_t kShare = 16;
+/// Samples of a sampled place if there is a target: the fewest whose error is known.
+constexpr uint32_t kFirstSamples = RoundPlan::kEstimateCount * RoundPlan::kMinSamplesPerEstimate;
+
+/// The sampled places: the middles of equal pieces of all places.
+std::vector<size_t> spread_indices(size_t count) {
+    const size_t sampled = std::min(count, std::clamp(count / kShare, kFewest, kMost));
+    std::vector<size_t> indices;
+    for (size_t i = 0; i < sampled; ++i) indices.push_back((2 * i + 1) * count / (2 * sampled));
+    return indices;
+}
+
+template <class T>
+std::vector<T> pick(std::span<const T> all, std::span<const size_t> indices) {
+    std::vector<T> picked;
+    if (all.empty()) return picked;
+    for (const size_t i : indices) picked.push_back(all[i]);
+    return picked;
+}
+
+/// One round, of few samples if errors tell how many more are needed.
+BakeSettings first_round(BakeSettings settings) {
+    settings.time_budget_seconds = 0.0;
+    if (RoundPlan(settings).has_target())
+        settings.sample_count = std::min(settings.sample_count, kFirstSamples);
+    settings.max_sample_count = RoundPlan::first_round_samples(settings);
+    return settings;
+}
+
+}  // namespace
+
+double RayEstimate::sum() const {
+    return std::accumulate(rays.begin(), rays.end(), 0.0);
+}
+
+Result<RayEstimate> estimate_rays(const Scene& scene, const BakePlaces& places,
+                                  const BakeSettings& settings,
+                                  std::span<const OcclusionLights> occlusion_lights,
+                                  const BakeCallback& callback) {
+    const std::vector<size_t> indices = spread_indices(places.positions.size());
+    if (indices.empty()) return RayEstimate{};
+    const auto positions = pick(places.positions, indices);
+    const auto texels = pick(places.surfaces.texels, indices);
+    const auto lights = pick(occlusion_lights, indices);
+    const LightGroupLayout layout(settings.plan);
+    std::vector<ProbeAccumulator> accumulators(indices.size());
+    std::vector<double> rows(indices.size() * layout.size());
+    const Stopwatch watch;
+    const auto status = bake_accumulators(scene, {positions, {texels, places.surfaces.origins}},
+                                          first_round(settings), accumulators,
+                                          {.progress = callback}, {rows, lights});
+    if (!status) return status.error();
+    const double seconds = watch.seconds();
+
+    const RoundPlan plan(settings, places.measure());
+    std::vector<double> expected;
+    uint64_t traced = 0;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const ProbeAccumulator& accumulator = accumulators[i];
+        const auto row = std::span(rows).subspan(i * layout.size(), layout.size());
+        const std::vector<float> errors =
+            plan.has_layer_target() ? layer_errors(layout, accumulator, row) : std::vector<float>{};
+        const float worst = errors.empty() ? 0.0f : *std::ranges::max_element(errors);
+        const auto samples = static_cast<double>(plan.expected_samples(accumulator, worst));
+        expected.push_back(samples * static_cast<double>(accumulator.ray_count) /
+                           static_cast<double>(accumulator.sample_count));
+        traced += accumulator.ray_count;
+    }
+    RayEstimate estimate;
+    estimate.rays_per_second = static_cast<double>(traced) / std::max(seconds, 1e-9);
+    const size_t count = places.positions.size();
+    for (size_t i = 0; i < count; ++i)
+        estimate.rays.push_back(expected[i * indices.size() / count]);
+    return estimate;
+}
+
+std::vector<PlaceRange> cut_ranges(std::span<const double> costs, size_t count) {
+    const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
+    const auto all = static_cast<uint32_t>(costs.size());
+    count = std::clamp<size_t>(count, 1, std::max<size_t>(costs.size(), 1));
+    std::vector<PlaceRange> ranges;
+    double before = 0.0;
+    uint32_t place = 0;
+    for (size_t i = 0; i < count; ++i) {
+        PlaceRange range{place, place};
+        // Enough places are left for the ranges that follow.
+        const auto last = static_cast<uint32_t>(all - std::min<size_t>(all, count - 1 - i));
+        const double end = sum * static_cast<double>(i + 1) / static_cast<double>(count);
+        while (place < last && (place == range.begin || before + 0.5 * costs[place] < end))
+            before += costs[place++];
+        if (i + 1 == count) place = all;
+        range.end = place;
+        ranges.push_back(range);
+    }
+    return ranges;
+}
+
+}  // namespace tetralight
