@@ -12,7 +12,9 @@ namespace tetralight::cli {
 
 Status run_backup(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_bake(const Values& values);
+Status run_bake_all(const Values& values);
 Status run_check_leaks(const Values& values);
+Status run_collect(const Values& values);
 Status run_explain(const Values& values);
 Status run_export(const Values& values);
 Status run_fsck(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
@@ -22,6 +24,7 @@ Status run_lightmap(const Values& values);
 Status run_lppv(const Values& values);
 Status run_merge(const Values& values);
 Status run_meshball(const Values& values);
+Status run_plan(const Values& values);
 Status run_prune(const Values& values);
 Status run_query(const Values& values);
 Status run_reflect(const Values& values);
@@ -29,6 +32,7 @@ Status run_relight(const Values& values);
 Status run_render(const Values& values);
 Status run_restore(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_serve(const Values& values);    // only with TETRALIGHT_BUILD_SERVER
+Status run_task(const Values& values);
 Status run_tetrahedralize(const Values& values);
 Status run_unwrap(const Values& values);
 Status run_validate(const Values& values);

@@ -15,9 +15,9 @@ struct SceneOrder {
     std::string place;  ///< for messages: "order.json: scenes[0]", or the path of the scene
     std::string name;   ///< of the files that are written
     /// Settings of `bake`, `lightmap` and `reflect` with absolute paths; nothing: not baked.
-    std::optional<Json> probes;
-    std::optional<Json> lightmaps;
-    std::optional<Json> reflections;
+    std::optional<Json> probes{};
+    std::optional<Json> lightmaps{};
+    std::optional<Json> reflections{};
     /// The scene was named instead of an order: what it has nothing for is left out.
     bool is_by_scene = false;
 };

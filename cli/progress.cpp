@@ -14,11 +14,18 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
+/// Of this process, which runs one command.
+ProgressLines g_lines = ProgressLines::Plain;
+
 double ray_rate(const BakeProgress& progress, double seconds) {
     return static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
 }
 
 }  // namespace
+
+void set_progress_lines(ProgressLines lines) {
+    g_lines = lines;
+}
 
 BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds,
                                          ProgressFile* file)
@@ -88,6 +95,11 @@ void BakeProgressDisplay::print_line(const BakeProgress& progress, double second
     const int tenth = static_cast<int>(fraction_done(progress, seconds) * 10.0);
     if (seconds < 1.0 || tenth == last_tenth_) return;
     last_tenth_ = tenth;
+    if (g_lines == ProgressLines::OpenJd) {
+        std::cout << "openjd_progress: " << tenth * 10
+                  << "\nopenjd_status: " << summary(progress, seconds) << std::endl;
+        return;
+    }
     std::cerr << "Progress: " << tenth * 10 << "%, " << summary(progress, seconds) << '\n';
 }
 

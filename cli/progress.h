@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,15 @@
 #include <tetralight/cli/progress_file.h>
 
 namespace tetralight::cli {
+
+/// Lines about progress where there is no terminal.
+enum class ProgressLines : uint8_t {
+    Plain,   ///< "Progress: 40%, ..." on stderr
+    OpenJd,  ///< "openjd_progress: 40" on stdout (Open Job Description)
+};
+
+/// From now on, of this process.
+void set_progress_lines(ProgressLines lines);
 
 /// Shows the progress of a bake on stderr: a bar on a terminal once it takes longer than a second,
 /// a plain line for each tenth elsewhere, nothing when quiet; and in a file for other programs.

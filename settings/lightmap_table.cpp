@@ -113,7 +113,7 @@ constexpr Setting kStoring[] = {
     {.name = "cache",
      .type = Type::Path,
      .help = "Folder of the light that paths end at: take it from there, or make it and keep it "
-             "there; with --texels 0..0 nothing else is baked",
+             "there",
      .without = "made by each bake",
      .value_name = "FOLDER",
      .excludes = "exact",

@@ -115,9 +115,9 @@ struct Table {
     }
 };
 
-extern const Table kBackup, kBake, kCheckLeaks, kExplain, kExport, kFsck, kGrid, kInfo, kLightmap,
-    kLppv, kMerge, kMeshball, kPrune, kQuery, kReflect, kRelight, kRender, kRestore, kServe,
-    kTetrahedralize, kUnwrap, kValidate;
+extern const Table kBackup, kBake, kBakeAll, kCheckLeaks, kCollect, kExplain, kExport, kFsck, kGrid,
+    kInfo, kLightmap, kLppv, kMerge, kMeshball, kPlan, kPrune, kQuery, kReflect, kRelight, kRender,
+    kRestore, kServe, kTask, kTetrahedralize, kUnwrap, kValidate;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <tetralight/base/result.h>
+#include <tetralight/cli/run_task.h>
+
+namespace tetralight::cli {
+
+/// Joins all results of a plan in a folder, writes `report.json` there, and prints what was
+/// written. The working folder has to be that of the job. What did not change stays as it is.
+[[nodiscard]] Status collect_all(const PlanFile& plan, const std::string& folder,
+                                 const CommonOptions& common);
+
+}  // namespace tetralight::cli

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+// The commands that cut bakes into tasks (docs/farm.md).
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kJob =
+    input_file("job", "Folder of the job, which `tetralight plan` made and machines share");
+
+constexpr Setting kOrder = input_file(
+    "order", "What to bake: an order (.json) with scenes and settings, or one scene (.glb, .gltf)");
+
+constexpr Setting output_folder(std::string_view help) {
+    Setting setting = output_file("", help);
+    setting.value_name = "FOLDER";
+    return setting;
+}
+
+constexpr Setting kPlanFiles[] = {kOrder, output_folder("Folder of the job to make")};
+
+constexpr Setting kCuts[] = {
+    {.name = "tasks",
+     .type = Type::Integer,
+     .help = "Tasks of the probes of each scene, and as many of its lightmaps",
+     .unit = "tasks",
+     .range = {1, 100000},
+     .without = "as many as --task-seconds asks",
+     .excludes = "task_seconds",
+     .access = Access::Command},
+    {.name = "task_seconds",
+     .type = Type::Seconds,
+     .help = "How long a task should take on a machine like this one",
+     .unit = "seconds",
+     .range = {0, 1e7, true},
+     .default_text = "300",
+     .access = Access::Command}};
+
+constexpr Setting task_number() {
+    Setting setting = input_file("task", "Number of the task, from 0");
+    setting.type = Type::Integer;
+    setting.range = {0, 1e9};
+    setting.access = Access::Command;
+    return setting;
+}
+
+constexpr Setting kTaskFiles[] = {kJob, task_number()};
+
+constexpr Setting kProgress[] = {
+    {.name = "progress",
+     .type = Type::Choice,
+     .help =
+         "Lines that tell the progress: plain = \"Progress: 40%\" on stderr, as most schedulers "
+         "read it; openjd = \"openjd_progress: 40\" on stdout (Open Job Description)",
+     .choices = "plain openjd",
+     .default_text = "plain",
+     .access = Access::Command}};
+
+constexpr Setting kCollectFiles[] = {kJob,
+                                     {.name = "output",
+                                      .type = Type::Path,
+                                      .help = "Folder for what was baked, and for report.json",
+                                      .without = "\"baked\" in the folder of the job",
+                                      .value_name = "FOLDER",
+                                      .short_name = 'o',
+                                      .access = Access::Command}};
+
+constexpr Setting kAllFiles[] = {
+    kOrder, output_folder("Folder for what is baked; \"job\" in it keeps what is known for the "
+                          "next time")};
+
+constexpr Group kPlanGroups[] = {
+    {"Files", kPlanFiles}, {"Tasks", kCuts}, {"Common options", kCommonSettings}};
+constexpr Group kTaskGroups[] = {
+    {"Files", kTaskFiles}, {"Progress", kProgress}, {"Common options", kCommonSettings}};
+constexpr Group kCollectGroups[] = {{"Files", kCollectFiles}, {"Common options", kCommonSettings}};
+constexpr Group kAllGroups[] = {
+    {"Files", kAllFiles}, {"Progress", kProgress}, {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kBakeAll{.command = "bake-all",
+                     .summary =
+                         "Bake probes, lightmaps and reflection probes, and what changed "
+                         "since the last time",
+                     .examples =
+                         "tetralight bake-all hall.glb -o baked\n"
+                         "tetralight bake-all levels.json -o baked",
+                     .groups = kAllGroups};
+
+const Table kPlan{.command = "plan",
+                  .summary = "Cut the bakes of many scenes into tasks for many machines",
+                  .examples =
+                      "tetralight plan levels.json -o /shared/job\n"
+                      "tetralight plan hall.glb --tasks 64 -o /shared/job",
+                  .groups = kPlanGroups};
+
+const Table kTask{.command = "task",
+                  .summary = "Run one task of a job; exit code 75 means: try it again",
+                  .examples = "tetralight task /shared/job 17",
+                  .groups = kTaskGroups};
+
+const Table kCollect{.command = "collect",
+                     .summary = "Join the results of all tasks of a job",
+                     .examples = "tetralight collect /shared/job -o baked",
+                     .groups = kCollectGroups};
+
+}  // namespace tetralight::settings

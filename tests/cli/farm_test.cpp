@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+/// Orders are read, cut into tasks, run and joined.
+class Farm : public CommandFixture {
+  protected:
+    void order(const std::string& members) const {
+        write("order.json", R"({"scenes": [{"scene": ")" + kCourtyard + R"(", )" + members + "}]}");
+    }
+
+    /// A cheap bake of all kinds of light but cubes.
+    void cheap_order() const {
+        order(R"("probes": {"samples": 16},
+                 "lightmaps": {"samples": 16, "texels_per_meter": 1}})"
+              R"(, {"scene": ")" +
+              kCourtyard + R"(", "name": "again", "probes": {"samples": 16, "seed": 1})");
+    }
+
+    /// Runs all tasks in an order that phases allow.
+    void run_tasks() const {
+        const Json plan = Json::parse(read("job/plan.json"));
+        for (size_t task = 0; task < plan["tasks"].size(); ++task)
+            succeed({"task", "job", std::to_string(task), "-q"});
+    }
+};
+
+TEST_F(Farm, TasksGiveTheBytesOfOneBake) {
+    cheap_order();
+    succeed({"plan", "order.json", "--tasks", "3", "-o", "job"});
+    run_tasks();
+    succeed({"collect", "job", "-o", "baked"});
+    succeed({"bake", kCourtyard, "-s", "16", "-o", "one.probes", "-q"});
+    succeed({"lightmap", kCourtyard, "-s", "16", "--texels-per-meter", "1", "-o", "one.lightmaps",
+             "-q"});
+    EXPECT_TRUE(read("baked/courtyard.probes") == read("one.probes"));
+    EXPECT_TRUE(read("baked/courtyard.lightmaps") == read("one.lightmaps"));
+    EXPECT_FALSE(read("baked/again.probes") == read("one.probes"));
+}
+
+TEST_F(Farm, ATaskThatIsDoneIsNotRunAgain) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"plan", "order.json", "--tasks", "2", "-o", "job"});
+    EXPECT_EQ(run_json({"task", "job", "0"})["was_done"], false);
+    EXPECT_EQ(run_json({"task", "job", "0"})["was_done"], true);
+    EXPECT_EQ(run_json({"plan", "order.json", "--tasks", "2", "-o", "job"})["done"], 1);
+    order(R"("probes": {"samples": 17})");
+    EXPECT_EQ(run_json({"plan", "order.json", "--tasks", "2", "-o", "job"})["done"], 0);
+}
+
+TEST_F(Farm, MissingTasksAreNamedAndMeanTryAgain) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"plan", "order.json", "--tasks", "3", "-o", "job"});
+    succeed({"task", "job", "1", "-q"});
+    EXPECT_TRUE(contains(fail({"collect", "job"}, "", 75),
+                         "courtyard: probes: 2 of 3 tasks are not done: 0, 2"));
+}
+
+TEST_F(Farm, LaterPhasesWaitForEarlierOnes) {
+    order(R"("lightmaps": {"samples": 16, "texels_per_meter": 1})");
+    succeed({"plan", "order.json", "--tasks", "2", "-o", "job"});
+    EXPECT_TRUE(contains(fail({"task", "job", "1"}, "", 75), "1 of 1 task is not done: 0"));
+}
+
+TEST_F(Farm, OrdersThatAreWrongAreRefusedByTheirMember) {
+    const auto refused = [&](const std::string& members, const std::string& reason) {
+        order(members);
+        EXPECT_TRUE(contains(fail({"plan", "order.json", "-o", "job"}), reason)) << reason;
+    };
+    refused(R"("probes": {"samples": "x"})", "order.json: scenes[0].probes: samples");
+    refused(R"("probes": {"output": "x.probes"})", "output");
+    refused(R"("probs": {})", "order.json: scenes[0]: asks for nothing");
+    refused(R"("probes": {}, "lightmap": {})", R"(lightmap: there is no such member)");
+    refused(R"("name": "a/b", "probes": {})", R"("a/b" cannot begin the name of a file)");
+    refused(R"("probes": {}}, {"scene": "courtyard.glb", "probes": {})",
+            "is the name of an earlier scene");
+    EXPECT_TRUE(contains(fail({"task", "nothing", "0"}), "is not a job"));
+}
+
+TEST_F(Farm, BakeAllBakesWhatChanged) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    const std::string first = read("baked/courtyard.probes");
+    succeed({"bake", kCourtyard, "-s", "16", "-o", "one.probes", "-q"});
+    EXPECT_TRUE(first == read("one.probes"));
+    EXPECT_TRUE(contains(succeed({"bake-all", "order.json", "-o", "baked"}).out, "unchanged"));
+    EXPECT_TRUE(read("baked/courtyard.probes") == first);
+}
+
+}  // namespace
+}  // namespace tetralight::test
