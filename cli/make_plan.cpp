@@ -17,6 +17,7 @@
 #include <tetralight/cli/reflect_inputs.h>
 #include <tetralight/cli/task_record.h>
 #include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/estimate_bytes.h>
 #include <tetralight/pipeline/estimate_rays.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/content_hash.h>
@@ -64,6 +65,7 @@ class Planner {
         for (const SceneOrder& order : orders) {
             const std::array steps{&Planner::add_probes, &Planner::add_lightmaps,
                                    &Planner::add_reflections};
+            scenes_.push_back({order.name, order.limits, leak_check_of(order)});
             for (const auto step : steps) {
                 if (Interrupt::signal() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
                 if (auto status = (this->*step)(order); !status) return status.error();
@@ -150,6 +152,7 @@ class Planner {
         const std::string path = str_cat("prepared/", order.name, ".probes");
         Piece piece{result_of(order, "probes", ".probes", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}, {"prepared", path}};
+        piece.result.bytes = estimate_bytes(prepared);
         if (!keep_tasks(piece)) {
             if (auto status = write_prepared_bake(in_job(path), prepared); !status) return status;
             const auto estimate =
@@ -174,6 +177,18 @@ class Planner {
             fs::absolute(fs::path(settings_.earlier_folder) / (order.name + ".probes"));
         std::error_code ignored;
         if (fs::is_regular_file(earlier, ignored)) command["reuse"] = earlier.string();
+    }
+
+    /// Reads the scene as the bake of its probes does.
+    [[nodiscard]] static Json leak_check_of(const SceneOrder& order) {
+        if (!order.probes || !order.limits.contains("leak")) return Json::object();
+        constexpr std::array own{"places", "samples", "clearance", "seed"};
+        Json check{{"command", "check-leaks"}};
+        for (const auto& [name, value] : order.probes->items()) {
+            const bool is_of_scene = std::ranges::find(own, name) == own.end();
+            if (is_of_scene && settings::kCheckLeaks.find(name) != nullptr) check[name] = value;
+        }
+        return check;
     }
 
     Status add_lightmaps(const SceneOrder& order) {
@@ -204,6 +219,7 @@ class Planner {
                           const PreparedLightmaps& prepared) {
         Piece piece{result_of(order, "lightmaps", ".lightmaps", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}};
+        piece.result.bytes = estimate_bytes(prepared);
         if (!keep_tasks(piece)) {
             const auto estimate = estimate_rays(scene, prepared.places(), prepared.settings.bake,
                                                 prepared.occlusion_lights, watch_signals);
@@ -297,7 +313,8 @@ class Planner {
                                        const char* extension, const std::string& key) const {
         const std::string cut = settings_.task_count > 0 ? std::to_string(settings_.task_count)
                                                          : str_cat(settings_.task_seconds, " s");
-        return {order.name, kind, order.name + extension, key_of(str_cat(key, ", ", cut)), {}, {}};
+        return {order.name, kind, order.name + extension, key_of(str_cat(key, ", ", cut)), 0,
+                {},         {}};
     }
 
     [[nodiscard]] static std::string part_of(const PlanResult& result, const std::string& what,
@@ -371,6 +388,7 @@ class Planner {
     /// Numbers the tasks by phases.
     [[nodiscard]] PlanFile numbered() const {
         PlanFile plan;
+        plan.scenes = scenes_;
         size_t phase_count = 1;
         for (const Piece& piece : pieces_) {
             for (const SceneTask& task : piece.tasks)
@@ -393,6 +411,7 @@ class Planner {
 
     const PlanSettings& settings_;
     PlanFile old_;
+    std::vector<PlanScene> scenes_;
     std::vector<Piece> pieces_;
 };
 

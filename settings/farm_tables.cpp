@@ -35,11 +35,19 @@ constexpr Setting kCuts[] = {
      .unit = "seconds",
      .range = {0, 1e7, true},
      .default_text = "300",
+     .access = Access::Command},
+    {.name = "core_hour_price",
+     .type = Type::Number,
+     .help = "Price of one processor for an hour: the plan says what the bake will cost",
+     .unit = "currency",
+     .range = {0, 1e6},
+     .without = "no price is given",
      .access = Access::Command}};
 
 constexpr Setting task_number() {
     Setting setting = input_file("task", "Number of the task, from 0");
     setting.type = Type::Integer;
+    setting.unit = "number";
     setting.range = {0, 1e9};
     setting.access = Access::Command;
     return setting;
@@ -69,6 +77,25 @@ constexpr Setting kCollectFiles[] = {kJob,
 constexpr Setting kAllFiles[] = {
     kOrder, output_folder("Folder for what is baked; \"job\" in it keeps what is known for the "
                           "next time")};
+
+constexpr Setting kLimitSettings[] = {
+    {.name = "error",
+     .type = Type::Fraction,
+     .help = "Standard error that 99 % of probes, and half of texels, have to stay below",
+     .without = "any"},
+    {.name = "dead_probes",
+     .type = Type::Fraction,
+     .help = "Share of probes that may be inside geometry",
+     .without = "any"},
+    {.name = "leak",
+     .type = Type::Fraction,
+     .help = "Light through walls, as a fraction of the mean light (`check-leaks`)",
+     .without = "not measured"},
+    {.name = "seconds",
+     .type = Type::Seconds,
+     .help = "Seconds that all tasks of the scene may take together",
+     .without = "any"}};
+constexpr Group kLimitGroups[] = {{"Limits", kLimitSettings}};
 
 constexpr Group kPlanGroups[] = {
     {"Files", kPlanFiles}, {"Tasks", kCuts}, {"Common options", kCommonSettings}};
@@ -105,5 +132,10 @@ const Table kCollect{.command = "collect",
                      .summary = "Join the results of all tasks of a job",
                      .examples = "tetralight collect /shared/job -o baked",
                      .groups = kCollectGroups};
+
+const Table kLimits{.command = "limits",
+                    .summary = "What a scene of an order has to keep",
+                    .examples = "",
+                    .groups = kLimitGroups};
 
 }  // namespace tetralight::settings

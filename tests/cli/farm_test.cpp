@@ -76,7 +76,46 @@ TEST_F(Farm, OrdersThatAreWrongAreRefusedByTheirMember) {
     refused(R"("name": "a/b", "probes": {})", R"("a/b" cannot begin the name of a file)");
     refused(R"("probes": {}}, {"scene": "courtyard.glb", "probes": {})",
             "is the name of an earlier scene");
+    refused(R"("probes": {}, "limits": {"error": 2})", "order.json: scenes[0]: limits: error");
+    refused(R"("probes": {}, "limits": {"eror": 1})", "eror");
     EXPECT_TRUE(contains(fail({"task", "nothing", "0"}), "is not a job"));
+}
+
+TEST_F(Farm, LimitsPassOrFailInOneReport) {
+    write("order.json", R"({"limits": {"dead_probes": 1.0}, "scenes": [
+        {"scene": ")" + kCourtyard +
+                            R"(", "name": "kept", "probes": {"samples": 32},
+         "limits": {"error": 1, "leak": "100%", "seconds": "1h"}},
+        {"scene": ")" + kCourtyard +
+                            R"(", "name": "<missed>", "probes": {"samples": 32},
+         "lightmaps": {"samples": 32, "texels_per_meter": 1},
+         "limits": {"error": "0.01%", "dead_probes": "100%"}}]})");
+    const CommandResult result = run({"bake-all", "order.json", "-o", "baked", "--json"});
+    EXPECT_EQ(result.exit_code, 1);
+    const Json report = Json::parse(read("baked/report.json"));
+    EXPECT_FALSE(report["passed"].get<bool>());
+    const Json kept = report["scenes"][0], missed = report["scenes"][1];
+    EXPECT_TRUE(kept["passed"].get<bool>());
+    EXPECT_FALSE(missed["passed"].get<bool>());
+    const auto value = [](const Json& scene, const std::string& name) {
+        for (const Json& check : scene["limits"])
+            if (check["name"] == name) return check["value"].get<double>();
+        return -1.0;
+    };
+    // The same figures as the commands themselves report.
+    const Json bake = run_json({"bake", kCourtyard, "-s", "32", "-o", "one.probes"});
+    EXPECT_EQ(value(kept, "error of probes"), bake["standard_error"]["p99"].get<double>());
+    EXPECT_EQ(value(kept, "dead_probes of probes"),
+              bake["dilated"].get<double>() / bake["probes"].get<double>());
+    EXPECT_EQ(kept["rays"], bake["rays"]);
+    const Json leaks = run_json({"check-leaks", "one.probes", "--scene", kCourtyard});
+    EXPECT_EQ(value(kept, "leak of probes"), leaks["through_walls"]["mean"].get<double>());
+    EXPECT_GT(value(kept, "seconds"), 0.0);
+    EXPECT_EQ(missed["limits"].size(), 3u);  // errors of two kinds, and dead probes
+    const std::string junit = read("baked/report.xml");
+    EXPECT_TRUE(contains(junit, R"(<testsuite name="&lt;missed&gt;" tests="5" failures="2")"));
+    EXPECT_TRUE(contains(junit, R"(<failure message="error of probes is 0.)"));
+    EXPECT_TRUE(contains(junit, R"(, more than 0.0001")"));
 }
 
 TEST_F(Farm, BakeAllBakesWhatChanged) {
