@@ -107,6 +107,7 @@ constexpr Setting kScheduler[] = {
     {.name = "option",
      .type = Type::Text,
      .help = "An option for sbatch or make, passed on as it is: --option=--partition=long",
+     .without = "no other options",
      .value_name = "OPTION",
      .is_list = true,
      .access = Access::Command},

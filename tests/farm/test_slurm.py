@@ -159,7 +159,7 @@ class SlurmTest(unittest.TestCase):
         programs.mkdir()
         (programs / "tetralight").symlink_to(TETRALIGHT)
         lines = f"PATH='{programs}':$PATH\n{lines}"
-        done = self.slurm.run("bash", "-euo", "pipefail", "-c", lines, cwd=self.place)
+        done = self.slurm.run("bash", "-euo", "pipefail", "-c", lines, cwd=self.place, timeout=PATIENCE)
         self.assertIn("job", done.stdout)
         self.assertGreater((self.place / "baked" / "courtyard.probes").stat().st_size, 0)
 
