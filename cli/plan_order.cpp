@@ -35,6 +35,12 @@ Error wrong(const std::string& place, const std::string& member, const std::stri
     return Error{ErrorCode::InvalidArgument, member, "", str_cat(place, ": ", member, message)};
 }
 
+/// Commands have settings of these names, too: `bake --probes` is a range of them.
+bool is_of_order(const std::string& member) {
+    return member == "name" ||
+           std::ranges::any_of(kKinds, [&](const Kind& kind) { return member == kind.name; });
+}
+
 /// Names files: no separators, and nothing that a terminal acts on.
 bool is_name(const std::string& name) {
     constexpr size_t kLongest = 200;
@@ -141,7 +147,7 @@ class OrderReader {
         if (!own.is_object()) return wrong(place, kind.name, ": expected an object of settings");
         Json values = Json::object();
         for (const auto& [member, value] : scene.items())
-            if (kind.table->find(member) != nullptr && member != "name") values[member] = value;
+            if (kind.table->find(member) != nullptr && !is_of_order(member)) values[member] = value;
         values.update(own);
         make_paths_absolute(*kind.table, folder_, values);
         const auto checked =

@@ -17,7 +17,6 @@ COURTYARD = os.environ["TETRALIGHT_COURTYARD"]
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "farm.md"
 # How long all tasks may take on a slow machine, under sanitizers.
 PATIENCE = 1500
-TASKS = 12
 # A shell that read one of these names would make files.
 ODD = "it's \"odd\" $(touch made_1) `touch made_2`; touch made_3 & %j #"
 
@@ -67,7 +66,7 @@ class SlurmTest(unittest.TestCase):
     def tetralight(self, *arguments):
         return self.slurm.run(TETRALIGHT, *arguments, cwd=self.folder).stdout
 
-    def plan(self, samples):
+    def plan(self, samples, tasks):
         """A job of 2 000 probes, all of whose names are odd."""
         scene = self.folder / f"scene {ODD}.glb"
         shutil.copy(COURTYARD, scene)
@@ -75,7 +74,7 @@ class SlurmTest(unittest.TestCase):
         (self.folder / "order.json").write_text(json.dumps({"scenes": [
             {"scene": scene.name, "name": f"name {ODD}",
              "probes": {"samples": samples, "groups": ["groups.json"]}}]}))
-        self.tetralight("plan", "order.json", "--tasks", TASKS, "-o", "job " + ODD)
+        self.tetralight("plan", "order.json", "--tasks", tasks, "-o", "job " + ODD)
         return scene, self.folder / ("job " + ODD)
 
     def submit(self, job, *options):
@@ -106,7 +105,8 @@ class SlurmTest(unittest.TestCase):
         self.assertEqual(made, [])
 
     def test_nodes_and_tasks_may_die(self):
-        scene, job = self.plan(samples=128)
+        samples = 4096
+        scene, job = self.plan(samples, tasks=12)
         jobs = self.submit(job)
         # Two tasks are killed, and a third is run twice at once.
         first = self.wait_for_tasks(job, 2)
@@ -123,23 +123,24 @@ class SlurmTest(unittest.TestCase):
         self.assert_ends_well(jobs["collect"])
         self.assertEqual(twin.wait(PATIENCE), 0)
         self.assertGreaterEqual(self.restarts(jobs["phase 0"]), 3)
-        self.tetralight("bake", scene, "--groups", "groups.json", "--samples", 128, "-o", "one.probes", "--quiet")
+        self.tetralight("bake", scene, "--groups", "groups.json", "--samples", samples, "-o", "one.probes", "--quiet")
         baked = self.folder / ("baked " + ODD) / f"name {ODD}.probes"
         self.assertEqual(baked.read_bytes() == (self.folder / "one.probes").read_bytes(), True)
         self.nothing_was_executed()
 
     def test_a_task_saves_its_work_before_its_time_is_over(self):
-        _, job = self.plan(samples=16)
+        _, job = self.plan(samples=4096, tasks=3)
         # What Slurm sends a minute before the time limit; then the element goes on.
         jobs = self.submit(job, "--at-once", 1)
         self.wait_for_tasks(job, 1)
         element = self.slurm.run("squeue", "--noheader", "--states=RUNNING", "--format=%i").stdout.split()[0]
-        self.slurm.run("scancel", "--batch", "--signal=USR1", element, check=False)
+        self.slurm.run("scancel", "--batch", "--signal=USR1", element)
         self.assert_ends_well(jobs["collect"])
+        self.assertEqual(self.restarts(jobs["phase 0"]), 1)
         self.nothing_was_executed()
 
     def test_cancelled_jobs_stay_cancelled_and_are_sent_again(self):
-        _, job = self.plan(samples=16)
+        _, job = self.plan(samples=4096, tasks=4)
         jobs = self.submit(job)
         self.wait_for_tasks(job, 1)
         refused = self.slurm.run(TETRALIGHT, "submit", job, "--to", "slurm", check=False)
