@@ -109,9 +109,10 @@ def has_open(process, path):
     return str(path) in files
 
 
-def kill(process):
+def send(process, number):
+    """A signal, if the process has not ended."""
     try:
-        os.kill(process, signal.SIGKILL)
+        os.kill(process, number)
     except ProcessLookupError:
         pass
 
@@ -179,7 +180,7 @@ class SlurmCluster:
         steps = self.steps(name)
         self.sessions.update(map(session_of, steps))
         for process in steps:
-            kill(process)
+            send(process, signal.SIGKILL)
         daemon = self.daemons.pop(name)
         daemon.kill()
         daemon.wait()
@@ -221,7 +222,7 @@ class SlurmCluster:
             self.sessions.update(map(session_of, self.steps(name)))
         for process in processes():
             if session_of(process) in self.sessions - {None}:
-                kill(process)
+                send(process, signal.SIGKILL)
         for daemon in self.daemons.values():
             daemon.kill()
             daemon.wait()

@@ -4,13 +4,14 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from slurm_cluster import SlurmCluster, kill, missing, processes, wait_until
+from slurm_cluster import SlurmCluster, missing, processes, send, session_of, wait_until
 
 TETRALIGHT = os.environ["TETRALIGHT_COMMAND"]
 COURTYARD = os.environ["TETRALIGHT_COURTYARD"]
@@ -84,17 +85,25 @@ class SlurmTest(unittest.TestCase):
                                           "-o", "baked " + ODD, *options))
         return {step["name"]: str(step["job"]) for step in sent["jobs"]}
 
-    def wait_for_tasks(self, job, count, but=()):
-        """Numbers and processes of tasks that run at the same time."""
-        found = {}
+    def freeze_tasks(self, job, count, but=()):
+        """Stops tasks that run, so that they cannot end meanwhile: their processes by their numbers."""
+        frozen = {}
 
-        def is_there():
-            found.clear()
-            found.update({task: process for task, process in running_tasks(job).items() if task not in but})
-            return len(found) >= count
+        def are_frozen():
+            for task, process in running_tasks(job).items():
+                if task in but or len(frozen) == count:
+                    continue
+                send(process, signal.SIGSTOP)
+                if running_tasks(job).get(task) == process:
+                    frozen[task] = process
+            return len(frozen) == count
 
-        wait_until(is_there, PATIENCE, f"{count} tasks that run")
-        return found
+        wait_until(are_frozen, PATIENCE, f"{count} tasks that run")
+        return frozen
+
+    def node_of(self, process):
+        return next(name for name in self.slurm.names
+                    if session_of(process) in map(session_of, self.slurm.steps(name)))
 
     def restarts(self, job):
         shown = self.slurm.run("scontrol", "--oneliner", "show", "job", job).stdout
@@ -109,16 +118,17 @@ class SlurmTest(unittest.TestCase):
         scene, job = self.plan(samples, tasks=12)
         jobs = self.submit(job)
         # Two tasks are killed, and a third is run twice at once.
-        first = self.wait_for_tasks(job, 2)
-        for process in list(first.values())[:2]:
-            kill(process)
-        task = next(iter(self.wait_for_tasks(job, 1, but=first)))
+        killed = self.freeze_tasks(job, 2)
+        for process in killed.values():
+            send(process, signal.SIGKILL)
+        (task, process), = self.freeze_tasks(job, 1, but=killed).items()
         twin = subprocess.Popen([TETRALIGHT, "task", job, str(task), "--threads", "1", "--quiet"])
-        # A node goes down while it works, and comes back.
-        self.wait_for_tasks(job, 1)
-        wait_until(lambda: any(map(self.slurm.steps, self.slurm.names)), PATIENCE, "a node that works")
-        node = next(name for name in self.slurm.names if self.slurm.steps(name))
+        send(process, signal.SIGCONT)
+        # A node fails while it works, and comes back. Its task goes on beside its next start.
+        process, = self.freeze_tasks(job, 1, but=[*killed, task]).values()
+        node = self.node_of(process)
         self.slurm.kill_node(node)
+        send(process, signal.SIGCONT)
         self.slurm.start_node(node)
         self.assert_ends_well(jobs["collect"])
         self.assertEqual(twin.wait(PATIENCE), 0)
@@ -132,9 +142,10 @@ class SlurmTest(unittest.TestCase):
         _, job = self.plan(samples=4096, tasks=3)
         # What Slurm sends a minute before the time limit; then the element goes on.
         jobs = self.submit(job, "--at-once", 1)
-        self.wait_for_tasks(job, 1)
+        process, = self.freeze_tasks(job, 1).values()
         element = self.slurm.run("squeue", "--noheader", "--states=RUNNING", "--format=%i").stdout.split()[0]
         self.slurm.run("scancel", "--batch", "--signal=USR1", element)
+        send(process, signal.SIGCONT)
         self.assert_ends_well(jobs["collect"])
         self.assertEqual(self.restarts(jobs["phase 0"]), 1)
         self.nothing_was_executed()
@@ -142,10 +153,11 @@ class SlurmTest(unittest.TestCase):
     def test_cancelled_jobs_stay_cancelled_and_are_sent_again(self):
         _, job = self.plan(samples=4096, tasks=4)
         jobs = self.submit(job)
-        self.wait_for_tasks(job, 1)
+        process, = self.freeze_tasks(job, 1).values()
         refused = self.slurm.run(TETRALIGHT, "submit", job, "--to", "slurm", check=False)
         self.assertIn("scancel " + " ".join(jobs.values()), refused.stderr)
         self.slurm.run("scancel", *jobs.values())
+        send(process, signal.SIGCONT)
         for number in jobs.values():
             self.assertNotEqual(self.slurm.wait_for(number, PATIENCE), "COMPLETED")
         (self.folder / ("program " + ODD)).unlink()
