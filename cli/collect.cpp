@@ -11,6 +11,7 @@
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/json_file.h>
+#include <tetralight/cli/submission.h>
 
 namespace tetralight::cli {
 
@@ -76,8 +77,12 @@ Status run_collect(const Values& values) {
     const CommonOptions common(values);
     const auto plan = read_plan(job);
     if (!plan) return plan.error();
-    const std::string asked = values.text("output");
-    const fs::path folder = asked.empty() ? fs::path(job) / "baked" : fs::path(asked);
+    std::string folder = values.text("output");
+    if (folder.empty()) {
+        auto usual = output_of_job(job);
+        if (!usual) return usual.error();
+        folder = std::move(*usual);
+    }
     const std::string output = fs::absolute(folder).lexically_normal().string();
     if (auto status = enter_folder(job); !status) return status;
     return collect_all(*plan, output, common);

@@ -32,16 +32,14 @@ constexpr Kind kKinds[] = {{"probes", &settings::kBake, &SceneOrder::probes},
                            {"lightmaps", &settings::kLightmap, &SceneOrder::lightmaps},
                            {"reflections", &settings::kReflect, &SceneOrder::reflections}};
 
-/// True if a member of a scene is a setting of its bakes, not a member of the order.
-bool is_setting(const Table& table, const std::string& member) {
-    const bool is_of_order = member == "name" || std::ranges::any_of(kKinds, [&](const Kind& kind) {
-                                 return member == kind.name;
-                             });
-    return !is_of_order && table.find(member) != nullptr;
-}
-
 Error wrong(const std::string& place, const std::string& member, const std::string& message) {
     return Error{ErrorCode::InvalidArgument, member, "", str_cat(place, ": ", member, message)};
+}
+
+/// Commands have settings of these names, too: `bake --probes` is a range of them.
+bool is_of_order(const std::string& member) {
+    return member == "name" ||
+           std::ranges::any_of(kKinds, [&](const Kind& kind) { return member == kind.name; });
 }
 
 /// Names files: no separators, and nothing that a terminal acts on.
@@ -165,7 +163,7 @@ class OrderReader {
         if (!own.is_object()) return wrong(place, kind.name, ": expected an object of settings");
         Json values = Json::object();
         for (const auto& [member, value] : scene.items())
-            if (is_setting(*kind.table, member)) values[member] = value;
+            if (kind.table->find(member) != nullptr && !is_of_order(member)) values[member] = value;
         values.update(own);
         make_paths_absolute(*kind.table, folder_, values);
         const auto checked =

@@ -69,10 +69,60 @@ constexpr Setting kCollectFiles[] = {kJob,
                                      {.name = "output",
                                       .type = Type::Path,
                                       .help = "Folder for what was baked, and for report.json",
-                                      .without = "\"baked\" in the folder of the job",
+                                      .without = "what `submit` was given, or \"baked\" in the "
+                                                 "folder of the job",
                                       .value_name = "FOLDER",
                                       .short_name = 'o',
                                       .access = Access::Command}};
+
+constexpr Setting kSubmitFiles[] = {kJob,
+                                    {.name = "output",
+                                     .type = Type::Path,
+                                     .help = "Folder for what was baked, and for report.json",
+                                     .without = "\"baked\" in the folder of the job",
+                                     .value_name = "FOLDER",
+                                     .short_name = 'o',
+                                     .access = Access::Command}};
+
+constexpr Setting kScheduler[] = {
+    {.name = "to",
+     .type = Type::Choice,
+     .help = "slurm = send arrays of jobs by sbatch, and return; make = run the tasks by GNU make "
+             "on this machine",
+     .choices = "slurm make",
+     .is_required = true,
+     .access = Access::Command},
+    {.name = "at_once",
+     .type = Type::Integer,
+     .help = "Tasks that run at once",
+     .unit = "tasks",
+     .range = {1, 100000},
+     .without = "as many as Slurm has room for; 1 with make",
+     .access = Access::Command},
+    {.name = "restarts",
+     .type = Type::Integer,
+     .help = "How often Slurm starts a task again that was interrupted, killed, or may succeed "
+             "later",
+     .unit = "times",
+     .range = {0, 1000},
+     .default_text = "10",
+     .access = Access::Command},
+    {.name = "program",
+     .type = Type::Path,
+     .help = "Where the machines that run tasks have the `tetralight` command",
+     .without = "where this one has it",
+     .access = Access::Command},
+    {.name = "option",
+     .type = Type::Text,
+     .help = "An option for sbatch or make, passed on as it is: --option=--partition=long",
+     .without = "no other options",
+     .value_name = "OPTION",
+     .is_list = true,
+     .access = Access::Command},
+    {.name = "dry_run",
+     .type = Type::Flag,
+     .help = "Print the files and commands; write and send nothing",
+     .access = Access::Command}};
 
 constexpr Setting kAllFiles[] = {
     kOrder, output_folder("Folder for what is baked; \"job\" in it keeps what is known for the "
@@ -102,6 +152,8 @@ constexpr Group kPlanGroups[] = {
 constexpr Group kTaskGroups[] = {
     {"Files", kTaskFiles}, {"Progress", kProgress}, {"Common options", kCommonSettings}};
 constexpr Group kCollectGroups[] = {{"Files", kCollectFiles}, {"Common options", kCommonSettings}};
+constexpr Group kSubmitGroups[] = {
+    {"Files", kSubmitFiles}, {"Scheduler", kScheduler}, {"Common options", kCommonSettings}};
 constexpr Group kAllGroups[] = {
     {"Files", kAllFiles}, {"Progress", kProgress}, {"Common options", kCommonSettings}};
 
@@ -137,5 +189,12 @@ const Table kLimits{.command = "limits",
                     .summary = "What a scene of an order has to keep",
                     .examples = "",
                     .groups = kLimitGroups};
+
+const Table kSubmit{.command = "submit",
+                    .summary = "Have a scheduler run the tasks of a job and join their results",
+                    .examples =
+                        "tetralight submit /shared/job --to slurm --at-once 64 --threads 8\n"
+                        "tetralight submit job --to make --at-once 4 -o baked",
+                    .groups = kSubmitGroups};
 
 }  // namespace tetralight::settings
