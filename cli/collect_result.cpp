@@ -44,6 +44,7 @@ Status join(const PlanResult& result, const std::string& output, const CommonOpt
     if (!report) return report.error();
     std::error_code ignored;
     collected = {{"key", result.key},
+                 {"lamps", result.lamps},
                  {"output", output},
                  {"bytes", fs::file_size(output, ignored)},
                  {"report", std::move(*report)}};

@@ -80,7 +80,8 @@ PlanResult result_from(const Json& json, const std::string& place, size_t task_c
                       reader.take<std::string>(json, place, "key"),
                       reader.take<size_t>(json, place, "bytes"),
                       {},
-                      reader.take<Json>(json, place, "command")};
+                      reader.take<Json>(json, place, "command"),
+                      reader.take<Json>(json, place, "lamps")};
     const auto tasks = json.find("tasks");
     const bool is_list = tasks != json.end() && tasks->is_array();
     if (!is_list) reader.fail(place + ".tasks");
@@ -209,7 +210,8 @@ Status write_plan(const std::string& job, const PlanFile& plan) {
                                    {"key", result.key},
                                    {"bytes", result.bytes},
                                    {"tasks", result.tasks},
-                                   {"command", result.command}});
+                                   {"command", result.command},
+                                   {"lamps", result.lamps}});
     }
     return write_json(path_of(job), json);
 }

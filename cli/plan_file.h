@@ -47,6 +47,8 @@ struct PlanResult {
     size_t bytes = 0;
     std::vector<size_t> tasks;
     Json command;  ///< without its output
+    /// What a later plan compares its lamps with (cli/earlier_light.h); an empty object: nothing.
+    Json lamps = Json::object();
 
     /// The file in the folder `done` of the job that says that it was joined.
     [[nodiscard]] std::string record_name() const;
