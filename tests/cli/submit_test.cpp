@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs are sent to stand-ins of Slurm's commands, and run by GNU make.
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 #include "tests/cli/command_fixture.h"
 #include "tests/support/fake_program.h"
@@ -65,9 +68,9 @@ class Submit : public CommandFixture {
     }
 
     /// A job with two probe tasks of the courtyard.
-    void real_job() const {
-        write("order.json",
-              R"({"scenes": [{"scene": ")" + kCourtyard + R"(", "probes": {"samples": 16}}]})");
+    void real_job(int samples) const {
+        write("order.json", R"({"scenes": [{"scene": ")" + kCourtyard +
+                                R"(", "probes": {"samples": )" + std::to_string(samples) + "}}]}");
         succeed({"plan", "order.json", "--tasks", "2", "-o", "job", "-q"});
     }
 
@@ -194,7 +197,7 @@ TEST_F(Submit, WithoutSlurmItSaysSo) {
 }
 
 TEST_F(Submit, MakeRunsAJobAndContinuesIt) {
-    real_job();
+    real_job(16);
     succeed({"task", "job", "1", "-q"});
     succeed({"submit", "job", "--to", "make", "--at-once", "2", "-o", "it's $(touch x) `touch y`",
              "-q"});
@@ -213,6 +216,14 @@ TEST_F(Submit, MakeSaysThatATaskFailed) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_TRUE(contains(result.err, "make ended with exit code 2; the same command continues"))
         << result.err;
+}
+
+TEST_F(Submit, MakeEndsAtSigtermAndMayBeRunAgain) {
+    real_job(1 << 20);
+    RunningCommand running(folder(), {"submit", "job", "--to", "make", "-q"}, "");
+    while (!running.handles(SIGTERM)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    running.send(SIGTERM);
+    EXPECT_EQ(running.wait().exit_code, 75);
 }
 
 TEST_F(Submit, ItHasToSayWhereTo) {

@@ -42,16 +42,22 @@ def running_tasks(job):
     return found
 
 
-class SlurmTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="slurm")
-        cls.addClassCleanup(place.cleanup)
-        cls.slurm = SlurmCluster(place.name)
-        cls.addClassCleanup(cls.slurm.stop)
-        cls.slurm.start()
+def has_signal(process, kind, number):
+    """True if a set of signals of a process has this one: SigCgt are caught, ShdPnd wait until it is no longer frozen."""
+    try:
+        status = Path(f"/proc/{process}/status").read_text()
+    except OSError:  # it has ended meanwhile
+        return False
+    return int(re.search(kind + r":\s*(\w+)", status).group(1), 16) >> (number - 1) & 1 == 1
 
+
+class SlurmTest(unittest.TestCase):
     def setUp(self):
+        place = tempfile.TemporaryDirectory(prefix="slurm")
+        self.addCleanup(place.cleanup)
+        self.slurm = SlurmCluster(place.name)
+        self.addCleanup(self.slurm.stop)
+        self.slurm.start()
         place = tempfile.TemporaryDirectory(prefix="farm")
         self.addCleanup(place.cleanup)
         self.place = Path(place.name)
@@ -86,12 +92,12 @@ class SlurmTest(unittest.TestCase):
         return {step["name"]: str(step["job"]) for step in sent["jobs"]}
 
     def freeze_tasks(self, job, count, but=()):
-        """Stops tasks that run, so that they cannot end meanwhile: their processes by their numbers."""
+        """Stops tasks that bake, so that they cannot end meanwhile: their processes by their numbers."""
         frozen = {}
 
         def are_frozen():
             for task, process in running_tasks(job).items():
-                if task in but or len(frozen) == count:
+                if task in but or len(frozen) == count or not has_signal(process, "SigCgt", signal.SIGTERM):
                     continue
                 send(process, signal.SIGSTOP)
                 if running_tasks(job).get(task) == process:
@@ -139,12 +145,10 @@ class SlurmTest(unittest.TestCase):
         self.nothing_was_executed()
 
     def test_a_task_saves_its_work_before_its_time_is_over(self):
-        _, job = self.plan(samples=4096, tasks=3)
-        # What Slurm sends a minute before the time limit; then the element goes on.
-        jobs = self.submit(job, "--at-once", 1)
+        _, job = self.plan(samples=4096, tasks=2)
+        jobs = self.submit(job, "--at-once", 1, "--option=--time=1")
         process, = self.freeze_tasks(job, 1).values()
-        element = self.slurm.run("squeue", "--noheader", "--states=RUNNING", "--format=%i").stdout.split()[0]
-        self.slurm.run("scancel", "--batch", "--signal=USR1", element)
+        wait_until(lambda: has_signal(process, "ShdPnd", signal.SIGTERM), 120, "the signal before the time limit")
         send(process, signal.SIGCONT)
         self.assert_ends_well(jobs["collect"])
         self.assertEqual(self.restarts(jobs["phase 0"]), 1)
