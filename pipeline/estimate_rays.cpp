@@ -17,8 +17,8 @@ namespace {
 constexpr size_t kFewest = 64;
 constexpr size_t kMost = 1024;
 constexpr size_t kShare = 16;
-/// Samples of a sampled place if there is a target: the fewest whose error is known.
-constexpr uint32_t kFirstSamples = RoundPlan::kEstimateCount * RoundPlan::kMinSamplesPerEstimate;
+/// Samples of a sampled place: with fewer, light that is seldom found is not known of.
+constexpr uint32_t kFirstSamples = 1024;
 
 /// Errors fall with this power of the samples: faster than the square root, because directions are
 /// spread evenly. Fitted on three scenes (docs/farm.md).
@@ -40,11 +40,10 @@ std::vector<T> pick(std::span<const T> all, std::span<const size_t> indices) {
     return picked;
 }
 
-/// One round, of few samples if errors tell how many more are needed.
+/// One round of few samples.
 BakeSettings first_round(BakeSettings settings) {
     settings.time_budget_seconds = 0.0;
-    if (RoundPlan(settings).has_target())
-        settings.sample_count = std::min(settings.sample_count, kFirstSamples);
+    settings.sample_count = std::min(settings.sample_count, kFirstSamples);
     settings.max_sample_count = RoundPlan::first_round_samples(settings);
     return settings;
 }

@@ -39,7 +39,10 @@ class Submit : public CommandFixture {
   protected:
     /// A job whose tasks are not there: phases of these numbers of tasks.
     void plan(const std::vector<size_t>& phases) const {
-        Json plan{{"format", "tetralight-plan"}, {"version", 1}, {"results", Json::array()}};
+        Json plan{{"format", "tetralight-plan"},
+                  {"version", 1},
+                  {"scenes", Json::array()},
+                  {"results", Json::array()}};
         plan["phases"] = plan["tasks"] = Json::array();
         for (const size_t count : phases) {
             const size_t begin = plan["tasks"].size();
