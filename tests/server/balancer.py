@@ -2,12 +2,14 @@
 """HAProxy with the configuration of the docs, and clients that query through it."""
 import csv
 import http.client
+import http.server
 import os
 import random
 import re
 import shutil
 import signal
 import socket
+import socketserver
 import subprocess
 import tempfile
 import threading
@@ -20,7 +22,8 @@ CONFIG = os.path.join(os.path.dirname(__file__), "..", "..", "docs", "haproxy.cf
 TOKEN = {"TETRALIGHT_TOKEN": "many-secret-words"}
 # The name of the service, which its clients use.
 HEADERS = {"Host": "light.example.com", "Authorization": "Bearer many-secret-words"}
-NAMES = [f"room{i}" for i in range(12)]
+# So many that each reader serves some.
+NAMES = [f"room{i}" for i in range(24)]
 
 
 def has_haproxy():
@@ -180,6 +183,29 @@ class Load:
         self.seconds = time.monotonic() - self.start
 
 
+class DyingReader(socketserver.ThreadingTCPServer):
+    """A reader that is always ready, and dies whenever it has received a query."""
+
+    daemon_threads = True
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_GET(self):
+            self.send_response(200)
+            self.end_headers()
+
+        def do_POST(self):
+            self.rfile.read(int(self.headers["Content-Length"]))
+            self.server.killed += 1
+
+        def log_message(self, *arguments):
+            pass
+
+    def __init__(self):
+        super().__init__(("127.0.0.1", 0), self.Handler)
+        self.killed = 0
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+
 class ReplicaTest(ServiceTest):
     """A writer with volumes of different light, three readers, and HAProxy in front of them."""
 
@@ -187,9 +213,11 @@ class ReplicaTest(ServiceTest):
         super().setUp()
         self.writer = self.start("--log", "warning", env=TOKEN)
         self.store_volumes()
-        self.readers = [self.start_reader() for _ in range(3)]
-        self.balancer = Balancer(self.folder, self.writer.port,
-                                 [reader.port for reader in self.readers])
+        self.readers = [self.start_reader(number) for number in range(3)]
+        self.make_balancer([reader.port for reader in self.readers])
+
+    def make_balancer(self, reader_ports):
+        self.balancer = Balancer(self.folder, self.writer.port, reader_ports)
         self.addCleanup(self.balancer.stop)
 
     @classmethod
@@ -213,9 +241,12 @@ class ReplicaTest(ServiceTest):
             answer = ask(self.writer.port, "POST", "/v1/volumes?name=" + name, read(self.file_of(name)))
             self.assertEqual(answer.status, 201, answer.body)
 
-    def start_reader(self, port=0):
+    def start_reader(self, number, port=0):
+        mount = f"{self.data}_of_reader{number + 1}"  # each has a log of its own beside it
+        if not os.path.islink(mount):
+            os.symlink(self.data, mount)
         return self.start("--read-only", "--drain-notice-seconds", "5", "--listen", f"127.0.0.1:{port}",
-                          env=TOKEN)
+                          data=mount, env=TOKEN)
 
     def start_balancer(self):
         self.balancer.start()
@@ -231,7 +262,7 @@ class ReplicaTest(ServiceTest):
 
     def restart_reader(self, number):
         """Waits until it is asked again."""
-        self.readers[number] = self.start_reader(self.readers[number].port)
+        self.readers[number] = self.start_reader(number, self.readers[number].port)
         self.assertTrue(self.eventually(lambda: self.queries_of(number) > 0, 60))
 
     def queries_of(self, number):

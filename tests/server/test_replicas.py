@@ -7,7 +7,7 @@ import signal
 import socket
 import unittest
 
-from balancer import HEADERS, NAMES, TOKEN, Load, Query, ReplicaTest, ask, has_haproxy
+from balancer import HEADERS, NAMES, TOKEN, DyingReader, Load, Query, ReplicaTest, ask, has_haproxy
 from service import COURTYARD, lattice, read, write_groups
 from test_query import FLOATS, OCCLUSION
 
@@ -19,9 +19,11 @@ TOO_LARGE = 20000
 
 @unittest.skipUnless(has_haproxy(), "there is no haproxy")
 class Replicas(ReplicaTest):
+    def make_query(self, name, count):
+        return Query(self.writer.port, name, count, 0 if count > SMALL else FLOATS, OCCLUSION)
+
     def start_load(self, *counts):
-        queries = [Query(self.writer.port, name, count, 0 if count > SMALL else FLOATS, OCCLUSION)
-                   for count in counts for name in NAMES]
+        queries = [self.make_query(name, count) for count in counts for name in NAMES]
         for query in queries:
             fits = max(len(query.body), len(query.answer)) < self.balancer.buffer_size() * 3 // 4
             self.assertEqual(fits, query.count != TOO_LARGE)
@@ -60,6 +62,23 @@ class Replicas(ReplicaTest):
         self.assertEqual(load.failures, [])
         self.assertGreater(self.balancer.retries(), 0)
 
+    def test_a_query_is_repeated_if_it_fits_in_the_buffer(self):
+        dying = DyingReader()
+        self.addCleanup(dying.server_close)
+        self.addCleanup(dying.shutdown)
+        self.make_balancer([dying.server_address[1], self.readers[1].port, self.readers[2].port])
+        self.start_balancer()
+        for count, others in ((SMALL, set()), (LARGE, set()), (TOO_LARGE, {502})):
+            killed = dying.killed
+            statuses = set()
+            for name in NAMES:
+                query = self.make_query(name, count)
+                answer = ask(self.balancer.port, "POST", query.path, query.body)
+                statuses.add(answer.status)
+                self.assertIn(answer.body, [query.answer] if answer.status == 200 else [answer.body])
+            self.assertGreater(dying.killed, killed)
+            self.assertEqual(statuses, {200} | others)
+
     def test_no_query_fails_while_a_replica_hangs(self):
         self.balancer.replace("timeout server 70s", "timeout server 5s")
         self.start_balancer()
@@ -89,16 +108,21 @@ class Replicas(ReplicaTest):
         self.assertEqual(load.failures, [])
 
     def volumes_of_readers(self, queries):
-        """Asks one query after another; returns which reader each volume was asked of."""
+        """Asks one query after another, and for its volume; returns the paths that each reader was asked for."""
         begin = [len(reader.logged()) for reader in self.readers]
-        connection = http.client.HTTPConnection("127.0.0.1", self.balancer.port, timeout=60)
         for query in queries:
+            connection = http.client.HTTPConnection("127.0.0.1", self.balancer.port, timeout=60)
             self.assertEqual(query.ask(connection), (200, query.answer))
-        connection.close()
-        paths = lambda: [[line["path"] for line in reader.logged()[first:] if line.get("path", "").endswith("/query")]
-                         for reader, first in zip(self.readers, begin)]
-        self.assertTrue(self.eventually(lambda: sum(map(len, paths())) == len(queries)))
-        return [set(each) for each in paths()]
+            connection.close()
+            self.assertEqual(ask(self.balancer.port, "GET", query.path.removesuffix("/query")).status, 200)
+
+        def paths():
+            lines = [reader.logged()[first:] for reader, first in zip(self.readers, begin)]
+            return [[path for line in each if (path := line.get("path", "")).startswith("/v1/volumes/")]
+                    for each in lines]
+
+        self.assertTrue(self.eventually(lambda: sum(map(len, paths())) == 2 * len(queries)))
+        return [{path.split("/")[3] for path in each} for each in paths()]
 
     def test_a_volume_stays_with_its_replica(self):
         self.start_balancer()
