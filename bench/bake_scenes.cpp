@@ -40,21 +40,6 @@ Mesh room_walls(glm::vec3 size) {
     return walls;
 }
 
-/// Positions in the scene's box that are not inside geometry.
-std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
-    const auto everything = [](const MeshInstance&) { return true; };
-    const WorldBox bounds = scene_bounds(scene, everything).value_or(WorldBox{});
-    std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
-    for (glm::dvec3& p : candidates) p = bounds.min + p * bounds.size();
-    const auto visibility = probe_visibilities(scene, candidates);
-    require(bool(visibility), "survey");
-    std::vector<glm::dvec3> free;
-    for (size_t i = 0; i < candidates.size() && free.size() < count; ++i) {
-        if ((*visibility)[i].behind_fraction < 0.1f) free.push_back(candidates[i]);
-    }
-    return free;
-}
-
 /// Positions with at least a thousandth of the mean light. Other free positions are in sealed
 /// cavities between walls, where relative errors mean nothing.
 std::vector<glm::dvec3> lit_positions(const Scene& scene, std::span<const glm::dvec3> positions) {
@@ -100,6 +85,20 @@ BakeSubject read_subject(const std::string& name, const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
+    const auto everything = [](const MeshInstance&) { return true; };
+    const WorldBox bounds = scene_bounds(scene, everything).value_or(WorldBox{});
+    std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
+    for (glm::dvec3& p : candidates) p = bounds.min + p * bounds.size();
+    const auto visibility = probe_visibilities(scene, candidates);
+    require(bool(visibility), "survey");
+    std::vector<glm::dvec3> free;
+    for (size_t i = 0; i < candidates.size() && free.size() < count; ++i) {
+        if ((*visibility)[i].behind_fraction < 0.1f) free.push_back(candidates[i]);
+    }
+    return free;
+}
 
 Scene emitter_room() {
     constexpr glm::vec3 kSize(20.0f, 6.0f, 20.0f);

@@ -22,6 +22,9 @@ struct BakeSubject {
 /// Adds a sun and a grey sky to a scene without light.
 void light_if_dark(Scene& scene);
 
+/// Positions in the scene's box that are not inside geometry: `count` or fewer.
+[[nodiscard]] std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count);
+
 /// Every fourth probe.
 [[nodiscard]] std::vector<glm::dvec3> some_probes(const BakeSubject& subject);
 

@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 constexpr const char* kJoin = "join";
 
 /// Rays of each probe of a whole bake.
-std::vector<double> real_rays(const BakeSubject& subject, const BakeSettings& settings) {
-    std::vector<ProbeAccumulator> accumulators(subject.probes.size());
-    require(bool(bake_accumulators(subject.scene, {subject.probes, {}}, settings, accumulators)),
-            "bake");
+std::vector<double> real_rays(const Scene& scene, const std::vector<glm::dvec3>& probes,
+                              const BakeSettings& settings) {
+    std::vector<ProbeAccumulator> accumulators(probes.size());
+    require(bool(bake_accumulators(scene, {probes, {}}, settings, accumulators)), "bake");
     std::vector<double> rays;
     for (const ProbeAccumulator& one : accumulators)
         rays.push_back(static_cast<double>(one.ray_count));
@@ -47,7 +47,8 @@ void bench_rays(const BakeSubject& subject) {
         const auto estimate = estimate_rays(subject.scene, {subject.probes, {}}, settings, {});
         require(bool(estimate), "estimate");
         report(str_cat("farm.cost_rays.", subject.name, ".", target),
-               estimate->sum() / sum(real_rays(subject, settings)), "of the rays of the bake");
+               estimate->sum() / sum(real_rays(subject.scene, subject.probes, settings)),
+               "of the rays of the bake");
     }
 }
 
@@ -66,14 +67,19 @@ void bench_bytes(const BakeSubject& subject) {
            "of the bytes of the file");
 }
 
-/// Most rays of a task over the mean of 64 tasks.
+/// Most rays of a task over the mean of 64 tasks, of probes in the order of a bake.
 void bench_imbalance(const BakeSubject& subject) {
-    constexpr size_t kTasks = 64;
-    BakeSettings settings;
-    settings.target_error = 0.02;
-    const auto estimate = estimate_rays(subject.scene, {subject.probes, {}}, settings, {});
+    constexpr size_t kTasks = 64, kProbes = 4096;
+    BakeVolumeSettings settings;
+    settings.bake.target_error = 0.05;
+    const std::vector<ProbeGroup> groups{
+        make_group("probes", free_positions(subject.scene, kProbes))};
+    const auto prepared = prepare_bake(subject.scene, groups, settings);
+    require(bool(prepared), "prepare");
+    const std::vector<glm::dvec3>& probes = prepared->capture_positions;
+    const auto estimate = estimate_rays(subject.scene, {probes, {}}, settings.bake, {});
     require(bool(estimate), "estimate");
-    const std::vector<double> rays = real_rays(subject, settings);
+    const std::vector<double> rays = real_rays(subject.scene, probes, settings.bake);
     const auto largest = [&](const std::vector<PlaceRange>& ranges) {
         double most = 0.0;
         for (const PlaceRange& range : ranges) {

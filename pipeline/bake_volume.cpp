@@ -77,8 +77,13 @@ void store_unseen(const TraceScene& traced, PreparedBake& prepared) {
                                      .thread_count = prepared.settings.bake.thread_count};
     report.unseen =
         find_unseen(find_free_places(traced, eyes, std::as_const(volume).view(), settings));
-    volume.metadata = add_walls(volume.metadata, {report.visibility.unclear_cell_count,
-                                                  report.visibility.left_out_count, report.unseen});
+    const VisibilityReport& walls = report.visibility;
+    volume.metadata = add_walls(volume.metadata, {.edge_count = walls.edge_count,
+                                                  .blocked_edge_count = walls.blocked_edge_count,
+                                                  .marked_cell_count = walls.marked_cell_count,
+                                                  .unclear_cell_count = walls.unclear_cell_count,
+                                                  .left_out_count = walls.left_out_count,
+                                                  .unseen = report.unseen});
     report.unseen_seconds = watch.seconds();
 }
 

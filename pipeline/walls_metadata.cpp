@@ -44,7 +44,10 @@ bool read(const Json& json, const char* name, std::vector<glm::dvec3>& positions
 
 std::string add_walls(std::string_view metadata, const WallsMetadata& walls) {
     Json json = Json::parse(metadata);
-    json["walls"] = {{"unclear_cells", walls.unclear_cell_count},
+    json["walls"] = {{"edges", walls.edge_count},
+                     {"blocked_edges", walls.blocked_edge_count},
+                     {"marked_cells", walls.marked_cell_count},
+                     {"unclear_cells", walls.unclear_cell_count},
                      {"left_out_probes", walls.left_out_count},
                      {"free_places", walls.unseen.place_count},
                      {"unseen_places", walls.unseen.unseen_count},
@@ -63,20 +66,30 @@ std::optional<WallsMetadata> read_walls(std::string_view metadata) {
                          read(*found, "free_places", walls.unseen.place_count) &&
                          read(*found, "unseen_places", walls.unseen.unseen_count) &&
                          read(*found, "unseen", walls.unseen.positions);
-    return is_read ? std::optional(walls) : std::nullopt;
+    if (!is_read) return std::nullopt;
+    const bool has_edges = read(*found, "edges", walls.edge_count) &&
+                           read(*found, "blocked_edges", walls.blocked_edge_count) &&
+                           read(*found, "marked_cells", walls.marked_cell_count);
+    if (!has_edges) walls.edge_count = 0;
+    return walls;
 }
 
 VisibilityReport stored_visibility(const ProbeVolumeView& volume) {
     VisibilityReport report;
     if (volume.visibility_blocks.empty()) return report;
+    const auto walls = read_walls(volume.metadata);
+    if (walls) {
+        report.edge_count = walls->edge_count;
+        report.blocked_edge_count = walls->blocked_edge_count;
+        report.marked_cell_count = walls->marked_cell_count;
+        report.unclear_cell_count = walls->unclear_cell_count;
+        report.left_out_count = walls->left_out_count;
+    }
+    if (report.edge_count > 0) return report;
     const VisibilityFacts facts = visibility_facts(volume);
     report.edge_count = facts.edges;
     report.blocked_edge_count = facts.blocked_edges;
     report.marked_cell_count = facts.marked_cells;
-    if (const auto walls = read_walls(volume.metadata)) {
-        report.unclear_cell_count = walls->unclear_cell_count;
-        report.left_out_count = walls->left_out_count;
-    }
     return report;
 }
 

@@ -169,7 +169,7 @@ TEST_F(ReuseProbes, IsOfOneSceneAndOneSetOfSettings) {
 TEST_F(ReuseProbes, DoesNotDependOnWhatWasFoundOfWalls) {
     ProbeVolume old = bake_all();
     ASSERT_TRUE(read_walls(old.metadata));
-    old.metadata = add_walls(old.metadata, {12345, 0, {}});
+    old.metadata = add_walls(old.metadata, {.unclear_cell_count = 12345, .unseen = {}});
     EXPECT_EQ(refusal(old), "");
 }
 

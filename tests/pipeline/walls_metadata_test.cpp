@@ -7,6 +7,9 @@ namespace tetralight {
 namespace {
 
 const WallsMetadata kWalls{
+    .edge_count = 100,
+    .blocked_edge_count = 20,
+    .marked_cell_count = 30,
     .unclear_cell_count = 3,
     .left_out_count = 1,
     .unseen = {.place_count = 4096, .unseen_count = 7, .positions = {{1.5, -2.001, 1e6}}}};
