@@ -87,6 +87,8 @@ void bench_bake(const Options& options);
 void bench_delaunay(const Options& options);
 /// Direction sets against random directions.
 void bench_direction_sets();
+/// Bakes in tasks: expected rays and bytes, equal tasks, joining.
+void bench_farm(const Options& options);
 /// Adding and removing a group, as fractions of a full build.
 void bench_groups(const Options& options);
 void bench_grid(const Options& options);

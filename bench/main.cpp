@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     using namespace tetralight::bench;
     const std::map<std::string, void (*)(const Options&)> benches{
         {"bake", bench_bake},
+        {"farm", bench_farm},
         {"query", bench_query},
         {"reflection", bench_reflection},
         {"relight", bench_relight},
@@ -37,10 +38,12 @@ int main(int argc, char** argv) {
     app.add_flag("--quick", options.is_quick, "Skip the benchmarks that take minutes");
     app.add_option("--convergence", options.convergence,
                    "`bake` writes a CSV file of errors over rays instead of its figures");
-    app.add_option("--only", options.only,
-                   "The scene that `bake`, `grid` or `relight` runs alone. bake: courtyard, scene, "
-                   "rooms, rooms_sky, emitters or white_room. grid: courtyard, house, rooms, "
-                   "interior or scene. relight: courtyard, scene or emitters");
+    app.add_option(
+        "--only", options.only,
+        "The scene that `bake`, `farm`, `grid` or `relight` runs alone. bake: courtyard, scene, "
+        "rooms, rooms_sky, emitters or white_room. grid: courtyard, house, rooms, "
+        "interior or scene. relight: courtyard, scene or emitters. farm: courtyard, "
+        "scene, rooms, emitters or collect");
     app.add_option("--figure", options.figure,
                    "The figures that `bake` measures alone: time, rays, noise, layers, bounces, "
                    "dering or threads; and `lightmap`: directional, shadowmask or layers")

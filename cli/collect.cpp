@@ -1,14 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <span>
 #include <vector>
 
+#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/batch/batch_report.h>
 #include <tetralight/cli/collect.h>
+#include <tetralight/cli/collect_result.h>
 #include <tetralight/cli/commands.h>
+#include <tetralight/cli/failure.h>
+#include <tetralight/cli/json_file.h>
+#include <tetralight/cli/submission.h>
 
 namespace tetralight::cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// `results`: one for each of the plan's, in its order.
+std::vector<BatchScene> batch_scenes(const PlanFile& plan,
+                                     const std::vector<CollectedResult>& results) {
+    std::vector<BatchScene> scenes;
+    for (const PlanScene& scene : plan.scenes) {
+        scenes.push_back({scene.name, scene.limits, {}});
+        for (size_t i = 0; i < results.size(); ++i) {
+            const PlanResult& result = plan.results[i];
+            const CollectedResult& run = results[i];
+            if (result.scene != scene.name) continue;
+            scenes.back().files.push_back(
+                {result.kind, result.file, run.bytes, run.seconds, run.report, run.leaks});
+        }
+    }
+    return scenes;
+}
+
+Status write_report(const fs::path& folder, const Json& report) {
+    if (auto status = write_json(folder / "report.json", report); !status) return status;
+    const std::string text = junit_text(report);
+    return write_file((folder / "report.xml").string(), std::as_bytes(std::span(text)));
+}
+
+}  // namespace
 
 Status collect_all(const PlanFile& plan, const std::string& folder, const CommonOptions& common) {
     std::error_code error;
@@ -17,7 +51,7 @@ Status collect_all(const PlanFile& plan, const std::string& folder, const Common
         return Error{ErrorCode::Unavailable, "output", folder,
                      str_cat(folder, ": cannot be made: ", error.message())};
     }
-    std::vector<ResultRun> results;
+    std::vector<CollectedResult> results;
     std::string text;
     for (const PlanResult& result : plan.results) {
         auto run = collect_result(plan, result, folder, common);
@@ -27,12 +61,15 @@ Status collect_all(const PlanFile& plan, const std::string& folder, const Common
             run->was_done ? ", unchanged" : str_cat(", ", duration(run->seconds), " of tasks"));
         results.push_back(std::move(*run));
     }
-    const auto report = write_job_report(plan, results, folder);
-    if (!report) return report.error();
+    const Json report = batch_report(batch_scenes(plan, results));
+    if (auto status = write_report(folder, report); !status) return status;
     Json json{{"output", folder}};
-    json.update(*report);
-    common.print(json, text);
-    return Ok{};
+    json.update(report);
+    const bool has_passed = report["passed"].get<bool>();
+    if (has_passed || !common.is_json) common.print(json, text);
+    if (has_passed) return Ok{};
+    return with_report(Error{ErrorCode::InvalidArgument, "limits", "", failed_limits(report)},
+                       json);
 }
 
 Status run_collect(const Values& values) {
@@ -40,8 +77,12 @@ Status run_collect(const Values& values) {
     const CommonOptions common(values);
     const auto plan = read_plan(job);
     if (!plan) return plan.error();
-    const std::string asked = values.text("output");
-    const fs::path folder = asked.empty() ? fs::path(job) / "baked" : fs::path(asked);
+    std::string folder = values.text("output");
+    if (folder.empty()) {
+        auto usual = output_of_job(job);
+        if (!usual) return usual.error();
+        folder = std::move(*usual);
+    }
     const std::string output = fs::absolute(folder).lexically_normal().string();
     if (auto status = enter_folder(job); !status) return status;
     return collect_all(*plan, output, common);

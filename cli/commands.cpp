@@ -16,6 +16,7 @@ constexpr Command kCommands[] = {
     {&settings::kPlan, run_plan},
     {&settings::kTask, run_task},
     {&settings::kCollect, run_collect},
+    {&settings::kSubmit, run_submit},
     {&settings::kExport, run_export},
     {&settings::kMerge, run_merge},
     {&settings::kPrune, run_prune},

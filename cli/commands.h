@@ -32,6 +32,7 @@ Status run_relight(const Values& values);
 Status run_render(const Values& values);
 Status run_restore(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_serve(const Values& values);    // only with TETRALIGHT_BUILD_SERVER
+Status run_submit(const Values& values);
 Status run_task(const Values& values);
 Status run_tetrahedralize(const Values& values);
 Status run_unwrap(const Values& values);

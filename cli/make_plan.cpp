@@ -9,14 +9,18 @@
 #include <set>
 #include <utility>
 
+#include <tetralight/base/file.h>
 #include <tetralight/base/hex.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/bake_inputs.h>
+#include <tetralight/cli/earlier_light.h>
 #include <tetralight/cli/interrupt.h>
 #include <tetralight/cli/lightmap_settings.h>
 #include <tetralight/cli/reflect_inputs.h>
+#include <tetralight/cli/reflection_places_report.h>
 #include <tetralight/cli/task_record.h>
 #include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/estimate_bytes.h>
 #include <tetralight/pipeline/estimate_rays.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/content_hash.h>
@@ -42,6 +46,13 @@ std::string key_of(const std::string& text) {
     return hex(hash.value());
 }
 
+/// Of its bytes; empty if it cannot be read.
+std::string key_of_file(const std::string& path) {
+    const auto bytes =
+        path.empty() ? Result<std::vector<std::byte>>(std::vector<std::byte>()) : read_file(path);
+    return bytes ? key_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()}) : "";
+}
+
 /// A task of a scene before all tasks are numbered.
 struct SceneTask {
     size_t phase = 0;
@@ -64,6 +75,7 @@ class Planner {
         for (const SceneOrder& order : orders) {
             const std::array steps{&Planner::add_probes, &Planner::add_lightmaps,
                                    &Planner::add_reflections};
+            scenes_.push_back({order.name, order.limits, leak_check_of(order)});
             for (const auto step : steps) {
                 if (Interrupt::signal() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
                 if (auto status = (this->*step)(order); !status) return status.error();
@@ -150,6 +162,11 @@ class Planner {
         const std::string path = str_cat("prepared/", order.name, ".probes");
         Piece piece{result_of(order, "probes", ".probes", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}, {"prepared", path}};
+        piece.result.bytes = estimate_bytes(prepared);
+        const auto is_relit =
+            relights(scene, prepared.settings.lighting, content_without_lamps(prepared), piece);
+        if (!is_relit) return is_relit.error();
+        if (*is_relit) return Ok{};
         if (!keep_tasks(piece)) {
             if (auto status = write_prepared_bake(in_job(path), prepared); !status) return status;
             const auto estimate =
@@ -167,13 +184,72 @@ class Planner {
         return Ok{};
     }
 
+    /// All that probes depend on beside their scene.
+    [[nodiscard]] static std::string content_without_lamps(PreparedBake prepared) {
+        prepared.volume.metadata.clear();  // it has the key of the scene
+        for (Light& light : prepared.volume.lights) light.intensity = glm::vec3(0.0f);
+        return hex(bake_key(prepared));
+    }
+
+    /// Adds a piece without tasks if only lamps of layers of their own changed their strength.
+    Result<bool> relights(const Scene& scene, const LightingSettings& lighting,
+                          const std::string& content, Piece& piece) {
+        const auto lamps = lamp_strengths(scene, lighting);
+        if (!lamps) return lamps.error();
+        piece.result.lamps = lamps_json(*lamps, content);
+        if (settings_.earlier_folder.empty()) return false;
+        const auto is_relit =
+            take_earlier_light(settings_.job, settings_.earlier_folder, piece.result);
+        if (!is_relit) return is_relit.error();
+        if (*is_relit || keep_relit(piece)) {
+            pieces_.push_back(std::move(piece));
+            return true;
+        }
+        return false;
+    }
+
+    /// Takes the result of the old plan if it is the same, and was relit.
+    bool keep_relit(Piece& piece) const {
+        const PlanResult* same = same_result(piece.result);
+        if (same == nullptr || same->command.value("command", "") != "relight") return false;
+        std::error_code ignored;
+        if (!fs::is_regular_file(in_job(same->command.value("volume", "")), ignored)) return false;
+        piece.result = *same;
+        return true;
+    }
+
+    /// Of the old plan; null if it has no such result.
+    [[nodiscard]] const PlanResult* same_result(const PlanResult& now) const {
+        const auto same = std::ranges::find_if(old_.results, [&](const PlanResult& old) {
+            return old.scene == now.scene && old.kind == now.kind && old.key == now.key;
+        });
+        return same == old_.results.end() ? nullptr : &*same;
+    }
+
     /// Probes that did not change take their light from the earlier result.
     void reuse_earlier(const SceneOrder& order, Json& command) const {
         if (settings_.earlier_folder.empty() || command.contains("reuse")) return;
+        const bool is_relit = std::ranges::any_of(old_.results, [&](const PlanResult& old) {
+            return old.scene == order.name && old.kind == "probes" &&
+                   old.command.value("command", "") == "relight";
+        });
+        if (is_relit) return;
         const fs::path earlier =
             fs::absolute(fs::path(settings_.earlier_folder) / (order.name + ".probes"));
         std::error_code ignored;
         if (fs::is_regular_file(earlier, ignored)) command["reuse"] = earlier.string();
+    }
+
+    /// Reads the scene as the bake of its probes does.
+    [[nodiscard]] static Json leak_check_of(const SceneOrder& order) {
+        if (!order.probes || !order.limits.contains("leak")) return Json::object();
+        constexpr std::array own{"places", "samples", "clearance", "seed"};
+        Json check{{"command", "check-leaks"}};
+        for (const auto& [name, value] : order.probes->items()) {
+            const bool is_of_scene = std::ranges::find(own, name) == own.end();
+            if (is_of_scene && settings::kCheckLeaks.find(name) != nullptr) check[name] = value;
+        }
+        return check;
     }
 
     Status add_lightmaps(const SceneOrder& order) {
@@ -204,6 +280,11 @@ class Planner {
                           const PreparedLightmaps& prepared) {
         Piece piece{result_of(order, "lightmaps", ".lightmaps", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}};
+        piece.result.bytes = estimate_bytes(prepared);
+        const auto is_relit =
+            relights(scene, prepared.settings.lighting, dump(*order.lightmaps), piece);
+        if (!is_relit) return is_relit.error();
+        if (*is_relit) return Ok{};
         if (!keep_tasks(piece)) {
             const auto estimate = estimate_rays(scene, prepared.places(), prepared.settings.bake,
                                                 prepared.occlusion_lights, watch_signals);
@@ -245,19 +326,22 @@ class Planner {
             if (order.is_by_scene && places->empty()) return Ok{};
             if (auto status = check_reflections(*scene, *places, inputs.settings); !status)
                 return inputs.in_file(status.error());
-            plan_reflections(order, *scene, inputs, *places);
-            return Ok{};
+            return plan_reflections(order, *scene, inputs, *places);
         });
     }
 
-    void plan_reflections(const SceneOrder& order, const Scene& scene, const ReflectInputs& inputs,
-                          const std::vector<ReflectionPlace>& places) {
+    Status plan_reflections(const SceneOrder& order, const Scene& scene,
+                            const ReflectInputs& inputs,
+                            const std::vector<ReflectionPlace>& places) {
         Json command = command_of("reflect", *order.reflections);
-        std::string content = str_cat("reflections, tetralight " TETRALIGHT_VERSION " ",
-                                      hex(scene_key(scene)), dump(command));
-        for (const ReflectionPlace& place : places)
-            content += str_cat(place.name, dump(to_json(place.position)));
-        Piece piece{result_of(order, "reflections", ".ktx2", key_of(content)), {}};
+        const std::string content =
+            str_cat("reflections, tetralight " TETRALIGHT_VERSION " ", dump(command),
+                    dump(reflection_places_json(places)), key_of_file(inputs.lightmaps_path));
+        const std::string key = key_of(content + hex(scene_key(scene)));
+        Piece piece{result_of(order, "reflections", ".ktx2", key), {}};
+        const auto is_relit = relights(scene, {.layers = inputs.settings.layers}, content, piece);
+        if (!is_relit) return is_relit.error();
+        if (*is_relit) return Ok{};
         command["store"] = str_cat("cubes/", order.name);
         piece.result.command = command;
         const double size = inputs.settings.cube_size;
@@ -276,6 +360,7 @@ class Planner {
                      piece);
         }
         pieces_.push_back(std::move(piece));
+        return Ok{};
     }
 
     [[nodiscard]] static bool watch_signals(const BakeProgress&) {
@@ -297,7 +382,8 @@ class Planner {
                                        const char* extension, const std::string& key) const {
         const std::string cut = settings_.task_count > 0 ? std::to_string(settings_.task_count)
                                                          : str_cat(settings_.task_seconds, " s");
-        return {order.name, kind, order.name + extension, key_of(str_cat(key, ", ", cut)), {}, {}};
+        return {order.name, kind, order.name + extension, key_of(str_cat(key, ", ", cut)), 0,
+                {},         {}};
     }
 
     [[nodiscard]] static std::string part_of(const PlanResult& result, const std::string& what,
@@ -307,14 +393,12 @@ class Planner {
 
     /// Takes the tasks of the old plan if it has the same result and prepared bake.
     bool keep_tasks(Piece& piece) const {
-        const PlanResult& now = piece.result;
-        const auto same = std::ranges::find_if(old_.results, [&](const PlanResult& old) {
-            return old.scene == now.scene && old.kind == now.kind && old.key == now.key;
-        });
-        if (same == old_.results.end()) return false;
-        const auto prepared = now.command.find("prepared");
+        const PlanResult* same = same_result(piece.result);
+        if (same == nullptr || same->tasks.empty()) return false;
+        const Json& command = piece.result.command;
+        const auto prepared = command.find("prepared");
         std::error_code ignored;
-        if (prepared != now.command.end() &&
+        if (prepared != command.end() &&
             !fs::is_regular_file(in_job(prepared->get<std::string>()), ignored))
             return false;
         for (const size_t index : same->tasks) {
@@ -371,6 +455,7 @@ class Planner {
     /// Numbers the tasks by phases.
     [[nodiscard]] PlanFile numbered() const {
         PlanFile plan;
+        plan.scenes = scenes_;
         size_t phase_count = 1;
         for (const Piece& piece : pieces_) {
             for (const SceneTask& task : piece.tasks)
@@ -393,6 +478,7 @@ class Planner {
 
     const PlanSettings& settings_;
     PlanFile old_;
+    std::vector<PlanScene> scenes_;
     std::vector<Piece> pieces_;
 };
 

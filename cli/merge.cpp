@@ -65,7 +65,8 @@ struct Merge {
 
         Json json{{"output", output}, {"parts", parts.size()}};
         json.update(counts(volume));
-        json.update({{"rays", merged->report.ray_count}});
+        json.update(
+            {{"dilated", merged->report.dilated_count}, {"rays", merged->report.ray_count}});
         json["walls"] = to_json(merged->report.visibility);
         json["unseen"] = to_json(merged->report.unseen);
         json.update(to_json(merged->report.statistics));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <numeric>
+#include <optional>
+#include <thread>
 #include <vector>
 
 #include <tetralight/base/str_cat.h>
@@ -17,7 +20,19 @@ std::vector<size_t> all_tasks(const PlanFile& plan) {
     return tasks;
 }
 
-void report(const CommonOptions& common, const std::string& job, const PlanFile& plan) {
+/// Of this machine, which costs of tasks are about.
+double thread_count(const CommonOptions& common) {
+    if (common.thread_count > 0) return common.thread_count;
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::string size_text(size_t bytes) {
+    return magnitude(static_cast<double>(bytes)) + "B";
+}
+
+/// `price`: of a processor for an hour; none: not given.
+void report(const CommonOptions& common, const std::string& job, const PlanFile& plan,
+            std::optional<double> price) {
     double cost = 0.0, rays = 0.0;
     for (const PlanTask& task : plan.tasks) {
         cost += task.cost;
@@ -27,10 +42,19 @@ void report(const CommonOptions& common, const std::string& job, const PlanFile&
     Json phases = Json::array();
     for (const PlanPhase& phase : plan.phases) phases.push_back({phase.begin, phase.end});
     Json files = Json::array();
-    for (const PlanResult& result : plan.results) files.push_back(result.file);
+    size_t bytes = 0;
+    for (const PlanResult& result : plan.results) {
+        files.push_back({{"file", result.file}, {"bytes", result.bytes}});
+        bytes += result.bytes;
+    }
+    const double core_hours = cost * thread_count(common) / 3600.0;
     std::string text = str_cat(job, ": ", counted(plan.tasks.size(), "task"), " in ",
                                counted(plan.phases.size(), "phase"), ", about ", magnitude(rays),
-                               "rays, ", duration(cost), " on this machine");
+                               "rays, ", duration(cost),
+                               " on this machine; probes and "
+                               "lightmaps of ",
+                               size_text(bytes));
+    if (price) text += str_cat("; ", core_hours * *price, " for ", core_hours, " core hours");
     if (done > 0) text += str_cat("; ", done, done == 1 ? " is done" : " are done");
     common.print({{"job", job},
                   {"tasks", plan.tasks.size()},
@@ -38,7 +62,9 @@ void report(const CommonOptions& common, const std::string& job, const PlanFile&
                   {"phases", phases},
                   {"files", files},
                   {"rays", rays},
-                  {"seconds", cost}},
+                  {"seconds", cost},
+                  {"core_hours", core_hours},
+                  {"price", price ? Json(core_hours * *price) : Json()}},
                  text);
 }
 
@@ -54,7 +80,9 @@ Status run_plan(const Values& values) {
     if (!orders) return orders.error();
     const auto plan = make_plan(*orders, settings);
     if (!plan) return plan.error();
-    report(settings.common, settings.job, *plan);
+    const bool has_price = values.is_given("core_hour_price");
+    report(settings.common, settings.job, *plan,
+           has_price ? std::optional(values.number("core_hour_price")) : std::nullopt);
     return Ok{};
 }
 

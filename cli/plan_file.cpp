@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/cli/json_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -78,8 +78,10 @@ PlanResult result_from(const Json& json, const std::string& place, size_t task_c
                       reader.take<std::string>(json, place, "kind"),
                       reader.take<std::string>(json, place, "file"),
                       reader.take<std::string>(json, place, "key"),
+                      reader.take<size_t>(json, place, "bytes"),
                       {},
-                      reader.take<Json>(json, place, "command")};
+                      reader.take<Json>(json, place, "command"),
+                      reader.take<Json>(json, place, "lamps")};
     const auto tasks = json.find("tasks");
     const bool is_list = tasks != json.end() && tasks->is_array();
     if (!is_list) reader.fail(place + ".tasks");
@@ -91,6 +93,15 @@ PlanResult result_from(const Json& json, const std::string& place, size_t task_c
             reader.fail(str_cat(place, ".tasks[", i, "]"));
     }
     return result;
+}
+
+PlanScene scene_from(const Json& json, const std::string& place, Reader& reader) {
+    PlanScene scene{reader.take<std::string>(json, place, "name"),
+                    reader.take<Json>(json, place, "limits"),
+                    reader.take<Json>(json, place, "leak_check")};
+    for (const auto& [name, limit] : scene.limits.items())
+        if (!limit.is_number()) reader.fail(str_cat(place, ".limits.", name));
+    return scene;
 }
 
 /// Phases follow each other from the first task to the last.
@@ -130,6 +141,10 @@ Result<PlanFile> plan_from(const Json& json) {
     for (const Json& task : reader.objects(json, "tasks"))
         plan.tasks.push_back(task_from(task, str_cat("tasks[", plan.tasks.size(), "]"), reader));
     read_phases(json, plan, reader);
+    for (const Json& scene : reader.objects(json, "scenes")) {
+        plan.scenes.push_back(
+            scene_from(scene, str_cat("scenes[", plan.scenes.size(), "]"), reader));
+    }
     for (const Json& result : reader.objects(json, "results")) {
         const std::string place = str_cat("results[", plan.results.size(), "]");
         plan.results.push_back(result_from(result, place, plan.tasks.size(), reader));
@@ -143,6 +158,10 @@ Result<PlanFile> plan_from(const Json& json) {
 
 std::string PlanTask::output() const {
     return command.at("output").get<std::string>();
+}
+
+std::string PlanResult::record_name() const {
+    return str_cat(scene, ".", kind, ".json");
 }
 
 Result<PlanFile> read_plan(const std::string& job) {
@@ -167,6 +186,11 @@ Result<PlanFile> read_plan(const std::string& job) {
 
 Status write_plan(const std::string& job, const PlanFile& plan) {
     Json json{{"format", kFormat}, {"version", kVersion}, {"program", TETRALIGHT_VERSION}};
+    json["scenes"] = Json::array();
+    for (const PlanScene& scene : plan.scenes) {
+        json["scenes"].push_back(
+            {{"name", scene.name}, {"limits", scene.limits}, {"leak_check", scene.leak_check}});
+    }
     json["phases"] = Json::array();
     for (const PlanPhase& phase : plan.phases)
         json["phases"].push_back({{"begin", phase.begin}, {"end", phase.end}});
@@ -184,11 +208,12 @@ Status write_plan(const std::string& job, const PlanFile& plan) {
                                    {"kind", result.kind},
                                    {"file", result.file},
                                    {"key", result.key},
+                                   {"bytes", result.bytes},
                                    {"tasks", result.tasks},
-                                   {"command", result.command}});
+                                   {"command", result.command},
+                                   {"lamps", result.lamps}});
     }
-    const std::string text = dump(json, 1) + "\n";
-    return write_file(path_of(job), std::as_bytes(std::span(text)));
+    return write_json(path_of(job), json);
 }
 
 std::string task_digits(size_t task) {

@@ -43,11 +43,28 @@ struct PlanResult {
     std::string kind;   ///< "probes", "lightmaps" or "reflections"
     std::string file;   ///< "hall.probes"
     std::string key;
+    /// Bytes that the file is expected to have; 0 = not known.
+    size_t bytes = 0;
     std::vector<size_t> tasks;
     Json command;  ///< without its output
+    /// What a later plan compares its lamps with (cli/earlier_light.h); an empty object: nothing.
+    Json lamps = Json::object();
+
+    /// The file in the folder `done` of the job that says that it was joined.
+    [[nodiscard]] std::string record_name() const;
+};
+
+/// A scene of the order.
+struct PlanScene {
+    std::string name;
+    Json limits;  ///< of its results; an object of numbers
+    /// The command that measures light through walls in its probes, without their file; an empty
+    /// object: it is not asked for.
+    Json leak_check;
 };
 
 struct PlanFile {
+    std::vector<PlanScene> scenes;
     std::vector<PlanPhase> phases;
     std::vector<PlanTask> tasks;
     std::vector<PlanResult> results;

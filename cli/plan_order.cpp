@@ -11,6 +11,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/suggest.h>
 #include <tetralight/base/utf8.h>
+#include <tetralight/batch/limits.h>
 #include <tetralight/settings/read_values.h>
 
 namespace tetralight::cli {
@@ -33,6 +34,12 @@ constexpr Kind kKinds[] = {{"probes", &settings::kBake, &SceneOrder::probes},
 
 Error wrong(const std::string& place, const std::string& member, const std::string& message) {
     return Error{ErrorCode::InvalidArgument, member, "", str_cat(place, ": ", member, message)};
+}
+
+/// Commands have settings of these names, too: `bake --probes` is a range of them.
+bool is_of_order(const std::string& member) {
+    return member == "name" ||
+           std::ranges::any_of(kKinds, [&](const Kind& kind) { return member == kind.name; });
 }
 
 /// Names files: no separators, and nothing that a terminal acts on.
@@ -75,7 +82,9 @@ class OrderReader {
         const auto json = read_json();
         if (!json) return json.error();
         for (const auto& [member, value] : json->items())
-            if (member != "scenes") return wrong(path_, member, ": there is no such member");
+            if (member != "scenes" && member != "limits")
+                return wrong(path_, member, ": there is no such member");
+        if (auto status = add_limits(*json, path_, limits_); !status) return status.error();
         const auto scenes = json->find("scenes");
         if (scenes == json->end() || !scenes->is_array() || scenes->empty())
             return wrong(path_, "scenes", ": expected an array with a scene or more");
@@ -131,7 +140,20 @@ class OrderReader {
             order.*kind.settings = std::move(*values);
         }
         if (auto status = check_members(scene, order); !status) return status.error();
+        order.limits = limits_;
+        if (auto status = add_limits(scene, order.place, order.limits); !status)
+            return status.error();
         return order;
+    }
+
+    /// Those of a scene replace those of the order one by one.
+    static Status add_limits(const Json& json, const std::string& place, Json& limits) {
+        const auto found = json.find("limits");
+        if (found == json.end()) return Ok{};
+        const auto read = read_limits(*found);
+        if (!read) return read.error().in(place);
+        limits.update(*read);
+        return Ok{};
     }
 
     /// The settings of one kind: its own, and those of the scene that its command has.
@@ -141,7 +163,7 @@ class OrderReader {
         if (!own.is_object()) return wrong(place, kind.name, ": expected an object of settings");
         Json values = Json::object();
         for (const auto& [member, value] : scene.items())
-            if (kind.table->find(member) != nullptr && member != "name") values[member] = value;
+            if (kind.table->find(member) != nullptr && !is_of_order(member)) values[member] = value;
         values.update(own);
         make_paths_absolute(*kind.table, folder_, values);
         const auto checked =
@@ -152,7 +174,8 @@ class OrderReader {
 
     /// Every member is of the order or a setting of what is baked.
     static Status check_members(const Json& scene, const SceneOrder& order) {
-        std::vector<std::string> known{"scene", "name", "probes", "lightmaps", "reflections"};
+        std::vector<std::string> known{"scene",  "name",      "limits",
+                                       "probes", "lightmaps", "reflections"};
         bool has_any = false;
         for (const Kind& kind : kKinds) {
             if (!(order.*kind.settings)) continue;
@@ -177,6 +200,7 @@ class OrderReader {
 
     std::string path_;
     fs::path folder_;
+    Json limits_ = Json::object();  ///< of all scenes
 };
 
 }  // namespace

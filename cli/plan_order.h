@@ -18,6 +18,8 @@ struct SceneOrder {
     std::optional<Json> probes{};
     std::optional<Json> lightmaps{};
     std::optional<Json> reflections{};
+    /// Of its results, as `settings::kLimits` has them.
+    Json limits = Json::object();
     /// The scene was named instead of an order: what it has nothing for is left out.
     bool is_by_scene = false;
 };

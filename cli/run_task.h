@@ -25,26 +25,6 @@ struct TaskRun {
 [[nodiscard]] Result<TaskRun> run_task(const PlanFile& plan, size_t task,
                                        const CommonOptions& common);
 
-struct ResultRun {
-    std::string output;
-    bool was_done = false;  ///< it did not change
-    uint64_t bytes = 0;
-    double seconds = 0.0;  ///< of its tasks
-    Json report;
-};
-
-/// Joins the tasks of a result in its file in a folder. The working folder has to be that of the
-/// job. Returns unavailable with the numbers of the tasks that are not done, and the errors of the
-/// joining command.
-[[nodiscard]] Result<ResultRun> collect_result(const PlanFile& plan, const PlanResult& result,
-                                               const std::string& folder,
-                                               const CommonOptions& common);
-
-/// Writes `report.json` of what was collected into the folder.
-[[nodiscard]] Result<Json> write_job_report(const PlanFile& plan,
-                                            const std::vector<ResultRun>& results,
-                                            const std::string& folder);
-
 /// "3 of 12 tasks are not done: 4, 7, 9".
 [[nodiscard]] Error tasks_missing(const std::vector<size_t>& missing, size_t count);
 

@@ -67,6 +67,7 @@ struct Serve {
         settings.cors_origins = values.texts("cors_origin");
         settings.allowed_hosts = values.texts("allowed_host");
         settings.viewer = values.text("viewer");
+        settings.bakes_on = choice<server::Settings::BakesOn>(values, "bakes_on");
         settings.log_level = choice<server::Log::Level>(values, "log");
         take_limits(values);
         check(values);
@@ -79,6 +80,7 @@ struct Serve {
         settings.storage_worker_count = values.integer32("storage_workers");
         settings.max_waiting = values.integer32("max_waiting");
         settings.queue_seconds = values.number("queue_seconds");
+        settings.bakes_at_once = values.integer32("bakes_at_once");
         settings.max_queued_bakes = values.integer32("max_bakes");
         settings.max_connections = values.integer32("max_connections");
         settings.max_body_bytes = values.integer("max_body");

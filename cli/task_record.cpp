@@ -6,11 +6,8 @@
 #include <array>
 #include <filesystem>
 #include <set>
-#include <span>
 
-#include <tetralight/base/file.h>
-#include <tetralight/base/json/json_text.h>
-#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/json_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -32,14 +29,6 @@ std::optional<uint64_t> size_of(const fs::path& path) {
 std::string host_name() {
     std::array<char, 256> name{};
     return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-/// An empty object if the file is none.
-Json read_object(const fs::path& path) {
-    const auto bytes = read_file(path.string());
-    if (!bytes) return Json::object();
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    return check_json_object(text) ? Json::parse(text) : Json::object();
 }
 
 }  // namespace
@@ -66,8 +55,7 @@ Status write_record(const std::string& job, const PlanFile& plan, size_t task, d
         {"output", done.output()}, {"bytes", size_of(fs::path(job) / done.output()).value_or(0)},
         {"seconds", seconds},      {"host", host_name()},
         {"report", report}};
-    const std::string text = dump(json, 1) + "\n";
-    return write_file(record_path(job, done).string(), std::as_bytes(std::span(text)));
+    return write_json(record_path(job, done), json);
 }
 
 std::vector<size_t> tasks_to_do(const std::string& job, const PlanFile& plan,
@@ -80,6 +68,7 @@ std::vector<size_t> tasks_to_do(const std::string& job, const PlanFile& plan,
 
 void remove_other_results(const std::string& job, const PlanFile& plan) {
     std::set<std::string> names;
+    for (const PlanResult& result : plan.results) names.insert(result.record_name());
     for (const PlanTask& task : plan.tasks) {
         const std::string part = fs::path(task.output()).filename().string();
         names.insert({part, part + ".store", task.key + ".json"});

@@ -198,6 +198,9 @@ struct BakedLightmaps {
 /// none.
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report);
 
+/// Gives the pages of prepared lightmaps their texels, without light.
+void resize_texels(const LightGroupLayout& layout, Lightmaps& maps);
+
 /// Filters the light, writes it into pages, fills texels that have none, and stitches seams. A
 /// function of the light, the prepared lightmaps, maps (but for their points), validity, seams and
 /// settings alone. Precondition: the light is that of all baked texels.

@@ -82,17 +82,10 @@ class PageWriter {
 
     void allocate() {
         texel_count_ = maps_.view().texel_count();
-        maps_.irradiance.resize(texel_count_);
-        maps_.light.resize(texel_count_);
-        maps_.validity.resize(texel_count_);
-        maps_.error.resize(texel_count_);
-        if (layout_.has_occlusion) maps_.shadow_mask.resize(texel_count_);
-        if (layout_.has_ambient_occlusion) maps_.ambient_occlusion.resize(texel_count_);
+        resize_texels(layout_, maps_);
         is_baked_.resize(texel_count_);
         seam_index_.assign(texel_count_, kNoIndex);
         fills_.resize(maps_.rectangles.size());
-        maps_.layer_irradiance.resize(layer_count() * texel_count_);
-        maps_.layer_light.resize(layer_count() * texel_count_);
     }
 
     /// Filled texels are means of baked ones, which bound them.
@@ -331,6 +324,18 @@ bool is_black(const TexelLights& lights, size_t texel_count) {
 }
 
 }  // namespace
+
+void resize_texels(const LightGroupLayout& layout, Lightmaps& maps) {
+    const size_t count = maps.view().texel_count();
+    maps.irradiance.resize(count);
+    maps.light.resize(count);
+    maps.validity.resize(count);
+    maps.error.resize(count);
+    if (layout.has_occlusion) maps.shadow_mask.resize(count);
+    if (layout.has_ambient_occlusion) maps.ambient_occlusion.resize(count);
+    maps.layer_irradiance.resize(maps.layers.size() * count);
+    maps.layer_light.resize(maps.layers.size() * count);
+}
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     std::vector<float> errors;

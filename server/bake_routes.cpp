@@ -3,6 +3,7 @@
 #include <map>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/batch/limits.h>
 #include <tetralight/server/order.h>
 #include <tetralight/server/page.h>
 #include <tetralight/server/problem.h>
@@ -21,16 +22,28 @@ int64_t read_priority(Fields& fields) {
     return priority->get<int64_t>();
 }
 
+/// What the report of its batch compares the bake with.
+void check_limits(Fields& fields) {
+    const Json* limits = fields.find("limits");
+    if (limits == nullptr) return;
+    const auto read = read_limits(*limits);
+    if (!read)
+        throw Problem{400, "invalid_value", detail_of(read.error()), "limits", shown(*limits)};
+}
+
 BakeOrder read_order(Service& service, Kind kind, const Json& json) {
     const settings::Table& table = bake_table(kind);
-    check_order(table, json, "name priority");
+    check_order(table, json, "name priority batch limits");
     Fields fields(json);
     BakeOrder order{.kind = kind,
                     .request = json,
                     .name = fields.text("name"),
                     .priority = read_priority(fields),
+                    .batch = fields.text("batch"),
                     .inputs = order_files(service.store, table, json)};
     check_name(order.name);
+    check_name(order.batch, "batch");
+    check_limits(fields);
     return order;
 }
 

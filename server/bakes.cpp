@@ -51,7 +51,7 @@ Bakes::Bakes(const Settings& settings, Store& store, Log& log)
     if (settings.is_read_only) return;
     load();
     clear_folders();
-    thread_ = std::thread([this] { run(); });
+    for (uint32_t i = 0; i < settings.bakes_at_once; ++i) threads_.emplace_back([this] { run(); });
 }
 
 Bakes::~Bakes() {
@@ -60,7 +60,7 @@ Bakes::~Bakes() {
         is_ending_ = true;
     }
     wake_.notify_all();
-    if (thread_.joinable()) thread_.join();
+    for (std::thread& thread : threads_) thread.join();
 }
 
 void Bakes::load() {

@@ -24,6 +24,8 @@ struct BakeOrder {
     /// Name of the result; empty: none.
     std::string name;
     int64_t priority = 0;
+    /// Bakes that are reported together; empty: none.
+    std::string batch;
     std::vector<OrderFile> inputs;
 };
 
@@ -41,15 +43,16 @@ struct CountMembers {
 /// True of "done", "failed" and "cancelled".
 [[nodiscard]] bool is_final(const std::string& state);
 
-/// Queued, running and finished bakes. One bake runs at a time, on all processors: the oldest of
-/// the highest priority. Accepted bakes and finished probes are on the disk: after a crash each
-/// bake continues and gives the same bytes. Thread-safe; functions throw a `Problem`.
+/// Queued, running and finished bakes. So many bakes as the settings allow run at once, on this
+/// machine or on a cluster: the oldest of the highest priority first. Accepted bakes and finished
+/// probes are on the disk: after a crash each bake continues and gives the same bytes. Thread-safe;
+/// functions throw a `Problem`.
 class Bakes {
   public:
     /// Continues the unfinished bakes of the store's database. Keeps references.
     Bakes(const Settings& settings, Store& store, Log& log);
 
-    /// Stops the running bake, which continues at the next start.
+    /// Stops the running bakes, which continue at the next start.
     ~Bakes();
 
     Bakes(const Bakes&) = delete;
@@ -104,6 +107,8 @@ class Bakes {
         double ended = 0.0;
         /// Number of starts that failed because a file or a resource was missing.
         int retries = 0;
+        /// Queued, until a thread has waited to try it again.
+        bool is_waiting = false;
         /// Of the progress file of the running command. Bakes of lightmaps count texels, those of
         /// reflection probes rows of texels.
         uint64_t probes_done = 0;
@@ -141,7 +146,7 @@ class Bakes {
     std::condition_variable wake_;
     bool is_ending_ = false;
     std::map<std::string, Bake> bakes_;
-    std::thread thread_;
+    std::vector<std::thread> threads_;
 };
 
 }  // namespace tetralight::server

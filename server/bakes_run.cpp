@@ -33,6 +33,12 @@ Json own_settings(Kind kind) {
     return json;
 }
 
+/// Limits of leaks need their measure.
+bool has_leak_limit(Kind kind, const Json& request) {
+    const Json limits = request.value("limits", Json());
+    return kind == Kind::Volumes && limits.is_object() && limits.contains("leak");
+}
+
 /// The number of probes or texels in the report of a bake; of reflection probes, whose report has
 /// none, that of the progress file.
 uint64_t final_count(Kind kind, const Json& report, uint64_t last_count) {
@@ -65,6 +71,11 @@ void rename_old_files(const std::string& folder) {
             number == std::string::npos ? stem : str_cat("groups[", stem.substr(number + 1), "]");
         if (is_old) fs::rename(path, folder + "/" + name, ignored);
     }
+}
+
+/// Names the Slurm job of a bake; empty: it runs here.
+std::string slurm_name(const Settings& settings, const std::string& id) {
+    return settings.bakes_on == Settings::BakesOn::Slurm ? "tetralight-bake-" + id : "";
 }
 
 /// What is out of reach or used up for now keeps its status, 503.
@@ -106,18 +117,22 @@ void Bakes::end(const std::string& id, const std::string& state, const std::stri
 /// Puts a bake back into the queue, and waits, if it lacks a file or resources that may come back.
 /// Returns false if it must fail.
 bool Bakes::wait_to_retry(const std::string& id, const Problem& problem) {
-    constexpr int kMostRetries = 3;
+    // A cluster may be away for longer than a file: 17 minutes in all.
+    const int most_retries = settings_.bakes_on == Settings::BakesOn::Slurm ? 10 : 3;
     std::unique_lock lock(mutex_);
     const auto found = bakes_.find(id);
     if (problem.status != 503 || found == bakes_.end() || found->second.state != "running" ||
-        found->second.retries == kMostRetries) {
+        found->second.retries == most_retries) {
         return false;
     }
     found->second.state = "queued";
+    found->second.is_waiting = true;
     const auto delay = std::chrono::seconds(1 << found->second.retries++);
     log_.write(Log::Level::Warning, "a bake waits to be tried again",
                {{"bake", id}, {"error", problem.detail}, {"seconds", delay.count()}});
     wake_.wait_for(lock, delay, [&] { return is_ending_; });
+    const auto bake = bakes_.find(id);  // it may have been cancelled and deleted
+    if (bake != bakes_.end()) bake->second.is_waiting = false;
     return true;
 }
 
@@ -142,7 +157,7 @@ bool Bakes::fail(const std::string& id, const std::string& error) {
 Bakes::Bake* Bakes::next_locked() {
     Bake* next = nullptr;
     for (auto& [id, bake] : bakes_) {
-        if (bake.state != "queued") continue;
+        if (bake.state != "queued" || bake.is_waiting) continue;
         const bool is_before = next == nullptr || bake.priority > next->priority ||
                                (bake.priority == next->priority && bake.number < next->number);
         if (is_before) next = &bake;
@@ -220,10 +235,12 @@ void Bakes::run_bake(const Bake& bake) {
     const std::string output = result_path(bake.kind);
     Json order = job_settings(table, bake.request);
     order.update(own_settings(bake.kind));
+    if (has_leak_limit(bake.kind, bake.request)) order["check_leaks"] = true;
     update_progress(bake.id);
     const JobResult baked = run({.command = std::string(table.command),
                                  .settings = order,
                                  .is_background = true,
+                                 .slurm_name = slurm_name(settings_, bake.id),
                                  .is_cancelled = [&] { return is_cancelled(bake.id); }});
     // When the server stops, the bake keeps its state and continues at the next start.
     if (baked.end == End::Cancelled) return;

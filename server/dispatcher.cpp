@@ -27,7 +27,7 @@ void check_encoding(const Request& request) {
 std::vector<Route> all_routes(Service& service) {
     std::vector<Route> all;
     for (auto* make : {system_routes, file_routes, section_routes, quarantine_routes, query_routes,
-                       bake_routes, preview_routes, tool_routes}) {
+                       bake_routes, batch_routes, preview_routes, tool_routes}) {
         for (Route& route : make(service)) all.push_back(std::move(route));
     }
     return all;

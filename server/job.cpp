@@ -12,6 +12,7 @@
 #include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/folders.h>
+#include <tetralight/server/slurm.h>
 
 namespace tetralight::server {
 namespace {
@@ -135,6 +136,45 @@ JobResult read_result(const ProcessResult& process) {
     return result;
 }
 
+/// What a machine of a cluster does not finish, it may finish later, or another one.
+JobResult read_slurm_result(const Job& job, const ProcessResult& process) {
+    using End = JobResult::End;
+    JobResult result = read_result(process);
+    if (result.end == End::Cancelled) {
+        // A job that is left is ended before the next one of its name.
+        (void)end_slurm_jobs(job.slurm_name);
+    } else if (result.end == End::Crashed) {
+        result.end = End::Failed;
+        result.error = {ErrorCode::Unavailable,
+                        str_cat(kSrun, " ", process.failure(), ": ", process.last_error_line())};
+    } else if (result.error.code == ErrorCode::Cancelled) {
+        result.error.code = ErrorCode::Unavailable;
+    }
+    return result;
+}
+
+JobResult run_in_slurm(const Settings& settings, const Job& job,
+                       std::span<const std::span<const std::byte>> input) {
+    JobResult result;
+    result.end = JobResult::End::Failed;
+    if (auto status = end_slurm_jobs(job.slurm_name); !status) {
+        result.error = status.error();
+        return result;
+    }
+    const auto process =
+        run_process({.program = kSrun,
+                     .arguments = srun_arguments(job.slurm_name, settings.tool_thread_count,
+                                                 program_of(settings), {"--job", "-"}),
+                     .folder = job.folder,
+                     .input = input,
+                     .group = ProcessGroup::Session,
+                     .output_limit = kMostOutput,
+                     .is_cancelled = job.is_cancelled});
+    if (process) return read_slurm_result(job, *process);
+    result.error = process.error();
+    return result;
+}
+
 }  // namespace
 
 std::string program_of(const Settings& settings) {
@@ -159,6 +199,7 @@ JobResult run_job(const Settings& settings, const Job& job) {
         result.error = status.error();
         return result;
     }
+    if (!job.slurm_name.empty()) return run_in_slurm(settings, job, input);
     const auto process =
         run_process({.program = program,
                      .arguments = {"--job", "-"},

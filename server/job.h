@@ -32,6 +32,9 @@ struct Job {
     double limit_seconds = 0.0;
     /// No client waits for it: it runs in a session of its own with the least weight.
     bool is_background = false;
+    /// Runs as a Slurm job of this name; empty: on this machine. Slurm's limits are those of the
+    /// program then.
+    std::string slurm_name = {};
     /// Called a few times a second on the calling thread; true kills the child.
     std::function<bool()> is_cancelled = {};
 };

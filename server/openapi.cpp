@@ -65,7 +65,9 @@ std::string openapi_document() {
     Json document = Json::parse(openapi_text());
     for (Json& schema : document["components"]["schemas"]) {
         if (!schema.contains("x-settings")) continue;
-        const auto* table = settings::find_table(schema["x-settings"].get<std::string>());
+        const auto name = schema["x-settings"].get<std::string>();
+        const auto* table =
+            name == settings::kLimits.command ? &settings::kLimits : settings::find_table(name);
         if (table != nullptr) add_settings(*table, schema);
         schema.erase("x-settings");
     }

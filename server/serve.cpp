@@ -21,6 +21,7 @@
 #include <tetralight/server/http_server.h>
 #include <tetralight/server/retention.h>
 #include <tetralight/server/service.h>
+#include <tetralight/server/slurm.h>
 
 namespace tetralight::server {
 namespace {
@@ -140,6 +141,9 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it
     keep_memory();
     raise_descriptor_limit();
+    if (settings.bakes_on == Settings::BakesOn::Slurm) {
+        if (auto status = find_slurm(); !status) return status;
+    }
     Log log(settings.log_level);
     auto tokens = Tokens::open(settings, log);
     if (!tokens) return tokens.error();

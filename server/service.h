@@ -43,6 +43,7 @@ struct Service {
 [[nodiscard]] std::vector<Route> quarantine_routes(Service& service);
 [[nodiscard]] std::vector<Route> query_routes(Service& service);
 [[nodiscard]] std::vector<Route> bake_routes(Service& service);
+[[nodiscard]] std::vector<Route> batch_routes(Service& service);
 [[nodiscard]] std::vector<Route> preview_routes(Service& service);
 [[nodiscard]] std::vector<Route> tool_routes(Service& service);
 [[nodiscard]] std::vector<Route> system_routes(Service& service);

@@ -44,6 +44,9 @@ struct Settings {
     /// Requests that may wait for each kind of thread, and their longest wait.
     uint32_t max_waiting = 256;
     double queue_seconds = 60.0;
+    enum class BakesOn : uint8_t { Local, Slurm };
+    BakesOn bakes_on = BakesOn::Local;
+    uint32_t bakes_at_once = 1;
     uint32_t max_connections = 4096;
     uint32_t max_queued_bakes = 1000;
     uint64_t max_body_bytes = uint64_t{64} << 20;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
 #include <tetralight/server/name_rules.h>
 #include <tetralight/server/problem.h>
@@ -65,7 +66,7 @@ std::string id_in_file_name(Kind kind, const std::string& name) {
     return is_id(id) ? id : "";
 }
 
-void check_name(const std::string& name) {
+void check_name(const std::string& name, const char* member) {
     constexpr size_t kLongest = 200;
     const bool is_plain = std::ranges::none_of(name, [](char c) {
         return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '/' || c == '\\';
@@ -74,9 +75,10 @@ void check_name(const std::string& name) {
     const bool is_text = is_utf8(name) && !has_outer_space(name) && !has_hidden_character(name);
     if (is_plain && !is_dots && name.size() <= kLongest && is_text && !is_id(name)) return;
     throw Problem{400, "invalid_value",
-                  "name: a name has at most 200 bytes, no slashes, no control characters and no "
-                  "invisible ones, no spaces at its ends, and is not an id",
-                  "name", name.substr(0, kLongest)};
+                  str_cat(member,
+                          ": a name has at most 200 bytes, no slashes, no control characters and "
+                          "no invisible ones, no spaces at its ends, and is not an id"),
+                  member, name.substr(0, kLongest)};
 }
 
 }  // namespace tetralight::server

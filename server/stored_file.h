@@ -54,7 +54,7 @@ struct StoredFile {
 [[nodiscard]] std::string id_in_file_name(Kind kind, const std::string& name);
 
 /// Throws a `Problem` unless the text can be a name: at most 200 bytes of UTF-8 without control
-/// characters and slashes, and not an id.
-void check_name(const std::string& name);
+/// characters and slashes, and not an id. `member`: of the order that has it.
+void check_name(const std::string& name, const char* member = "name");
 
 }  // namespace tetralight::server

@@ -117,7 +117,10 @@ struct Table {
 
 extern const Table kBackup, kBake, kBakeAll, kCheckLeaks, kCollect, kExplain, kExport, kFsck, kGrid,
     kInfo, kLightmap, kLppv, kMerge, kMeshball, kPlan, kPrune, kQuery, kReflect, kRelight, kRender,
-    kRestore, kServe, kTask, kTetrahedralize, kUnwrap, kValidate;
+    kRestore, kServe, kSubmit, kTask, kTetrahedralize, kUnwrap, kValidate;
+
+/// Of `limits` in orders, which is not a command.
+extern const Table kLimits;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <tetralight/base/str_cat.h>
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -76,7 +79,46 @@ TEST_F(Farm, OrdersThatAreWrongAreRefusedByTheirMember) {
     refused(R"("name": "a/b", "probes": {})", R"("a/b" cannot begin the name of a file)");
     refused(R"("probes": {}}, {"scene": "courtyard.glb", "probes": {})",
             "is the name of an earlier scene");
+    refused(R"("probes": {}, "limits": {"error": 2})", "order.json: scenes[0]: limits: error");
+    refused(R"("probes": {}, "limits": {"eror": 1})", "eror");
     EXPECT_TRUE(contains(fail({"task", "nothing", "0"}), "is not a job"));
+}
+
+TEST_F(Farm, LimitsPassOrFailInOneReport) {
+    write("order.json", R"({"limits": {"dead_probes": 1.0}, "scenes": [
+        {"scene": ")" + kCourtyard +
+                            R"(", "name": "kept", "probes": {"samples": 32},
+         "limits": {"error": 1, "leak": "100%", "seconds": "1h"}},
+        {"scene": ")" + kCourtyard +
+                            R"(", "name": "<missed>", "probes": {"samples": 32},
+         "lightmaps": {"samples": 32, "texels_per_meter": 1},
+         "limits": {"error": "0.01%", "dead_probes": "100%"}}]})");
+    const CommandResult result = run({"bake-all", "order.json", "-o", "baked", "--json"});
+    EXPECT_EQ(result.exit_code, 1);
+    const Json report = Json::parse(read("baked/report.json"));
+    EXPECT_FALSE(report["passed"].get<bool>());
+    const Json kept = report["scenes"][0], missed = report["scenes"][1];
+    EXPECT_TRUE(kept["passed"].get<bool>());
+    EXPECT_FALSE(missed["passed"].get<bool>());
+    const auto value = [](const Json& scene, const std::string& name) {
+        for (const Json& check : scene["limits"])
+            if (check["name"] == name) return check["value"].get<double>();
+        return -1.0;
+    };
+    // The same figures as the commands themselves report.
+    const Json bake = run_json({"bake", kCourtyard, "-s", "32", "-o", "one.probes"});
+    EXPECT_EQ(value(kept, "error of probes"), bake["standard_error"]["p99"].get<double>());
+    EXPECT_EQ(value(kept, "dead_probes of probes"),
+              bake["dilated"].get<double>() / bake["probes"].get<double>());
+    EXPECT_EQ(kept["rays"], bake["rays"]);
+    const Json leaks = run_json({"check-leaks", "one.probes", "--scene", kCourtyard});
+    EXPECT_EQ(value(kept, "leak of probes"), leaks["through_walls"]["mean"].get<double>());
+    EXPECT_GT(value(kept, "seconds"), 0.0);
+    EXPECT_EQ(missed["limits"].size(), 3u);  // errors of two kinds, and dead probes
+    const std::string junit = read("baked/report.xml");
+    EXPECT_TRUE(contains(junit, R"(<testsuite name="&lt;missed&gt;" tests="5" failures="2")"));
+    EXPECT_TRUE(contains(junit, R"(<failure message="error of probes is 0.)"));
+    EXPECT_TRUE(contains(junit, R"(, more than 0.0001")"));
 }
 
 TEST_F(Farm, BakeAllBakesWhatChanged) {
@@ -87,6 +129,78 @@ TEST_F(Farm, BakeAllBakesWhatChanged) {
     EXPECT_TRUE(first == read("one.probes"));
     EXPECT_TRUE(contains(succeed({"bake-all", "order.json", "-o", "baked"}).out, "unchanged"));
     EXPECT_TRUE(read("baked/courtyard.probes") == first);
+}
+
+/// A lamp and the sky over five probes.
+class FarmOfALamp : public Farm {
+  protected:
+    void scene(const std::string& lamp) const {
+        write("scene.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [
+                {"type": "point", "name": "lamp", "extras": {"mode": "baked"}, )" +
+                                lamp + R"(}]}},
+            "nodes": [{"name": "lamp", "translation": [1, 2, 3],
+                "extensions": {"KHR_lights_punctual": {"light": 0}}}]})");
+    }
+
+    void order_of_lamp() const {
+        write("groups.json", kFiveProbes);
+        write("order.json", R"({"scenes": [{"scene": "scene.gltf", "sky": 0.5, "probes": {
+            "samples": 64, "groups": ["groups.json"], "layers": ["light:lamp"]}}]})");
+    }
+
+    /// The light that answers at a position.
+    [[nodiscard]] std::vector<double> light(const std::string& volume) const {
+        const Json answer = Json::parse(succeed({"query", volume, "--to", "jsonl"}, "1 1 1\n").out);
+        std::vector<double> values;
+        for (const Json& value : answer.flatten())
+            if (value.is_number()) values.push_back(value.get<double>());
+        return values;
+    }
+
+    [[nodiscard]] size_t task_count() const {
+        return Json::parse(read("baked/job/plan.json"))["tasks"].size();
+    }
+};
+
+TEST_F(FarmOfALamp, AStrongerLampOfItsOwnLayerIsNotBakedAgain) {
+    order_of_lamp();
+    scene(R"("intensity": 100)");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_EQ(task_count(), 1u);
+    const std::string first = read("baked/scene.probes");
+    for (const char* intensity : {"130", "7"}) {
+        scene(str_cat(R"("intensity": )", intensity));
+        succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+        EXPECT_EQ(task_count(), 0u);
+        succeed({"bake", "scene.gltf", "--sky", "0.5", "-s", "64", "--groups", "groups.json",
+                 "--layers", "light:lamp", "-o", "one.probes", "-q"});
+        const std::vector<double> relit = light("baked/scene.probes"), baked = light("one.probes");
+        ASSERT_EQ(relit.size(), baked.size());
+        const double largest = *std::ranges::max_element(baked);
+        for (size_t i = 0; i < relit.size(); ++i)
+            EXPECT_NEAR(relit[i], baked[i], 1e-3 * largest) << i;
+    }
+    EXPECT_TRUE(contains(succeed({"bake-all", "order.json", "-o", "baked"}).out, "unchanged"));
+    std::filesystem::remove(path("baked/scene.probes"));
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_EQ(task_count(), 0u);
+    scene(R"("intensity": 100)");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_EQ(light("baked/scene.probes"), [&] {
+        write("first.probes", first);
+        return light("first.probes");
+    }());
+}
+
+TEST_F(FarmOfALamp, AnotherColorIsBaked) {
+    order_of_lamp();
+    scene(R"("intensity": 100)");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    scene(R"("intensity": 100, "color": [1, 0.5, 0.5])");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_EQ(task_count(), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/cli/collect_result.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/json_file.h>
+
+namespace tetralight::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path collected_path(const PlanResult& result) {
+    return fs::path("done") / result.record_name();
+}
+
+/// What was collected before; an empty object if nothing was, or it was changed since.
+Json collected_before(const PlanResult& result, const std::string& output) {
+    std::error_code error;
+    if (!fs::is_regular_file(output, error)) return Json::object();
+    Json json = read_object(collected_path(result));
+    const bool is_same = json.value("key", Json()) == result.key &&
+                         json.value("output", Json()) == output &&
+                         json.value("bytes", Json()) == fs::file_size(output, error) &&
+                         json.value("report", Json()).is_object();
+    return is_same ? json : Json::object();
+}
+
+/// Of the scene of these probes; an empty object: not asked for.
+Json leak_check_of(const PlanFile& plan, const PlanResult& result) {
+    if (result.kind != "probes") return Json::object();
+    const auto scene = std::ranges::find(plan.scenes, result.scene, &PlanScene::name);
+    return scene == plan.scenes.end() ? Json::object() : scene->leak_check;
+}
+
+Status join(const PlanResult& result, const std::string& output, const CommonOptions& common,
+            Json& collected) {
+    Json command = result.command;
+    command["output"] = output;
+    auto report = run_command(command, common);
+    if (!report) return report.error();
+    std::error_code ignored;
+    collected = {{"key", result.key},
+                 {"lamps", result.lamps},
+                 {"output", output},
+                 {"bytes", fs::file_size(output, ignored)},
+                 {"report", std::move(*report)}};
+    return write_json(collected_path(result), collected);
+}
+
+Status measure_leaks(const PlanResult& result, const std::string& output, const Json& check,
+                     const CommonOptions& common, Json& collected) {
+    Json command = check;
+    command["volume"] = output;
+    auto report = run_command(command, common);
+    if (!report) return report.error();
+    collected["leak_check"] = check;
+    collected["leaks"] = std::move(*report);
+    return write_json(collected_path(result), collected);
+}
+
+}  // namespace
+
+Result<CollectedResult> collect_result(const PlanFile& plan, const PlanResult& result,
+                                       const std::string& folder, const CommonOptions& common) {
+    const auto missing = tasks_to_do(".", plan, result.tasks);
+    if (!missing.empty()) {
+        return tasks_missing(missing, result.tasks.size())
+            .in(str_cat(result.scene, ": ", result.kind));
+    }
+    const std::string output = (fs::path(folder) / result.file).string();
+    Json collected = collected_before(result, output);
+    const bool was_done = !collected.empty();
+    if (!was_done) {
+        if (auto status = join(result, output, common, collected); !status) return status.error();
+    }
+    const Json check = leak_check_of(plan, result);
+    if (!check.empty() && collected.value("leak_check", Json()) != check) {
+        const auto status = measure_leaks(result, output, check, common, collected);
+        if (!status) return status.error();
+    }
+    CollectedResult run{.output = output,
+                        .was_done = was_done,
+                        .bytes = collected["bytes"].get<uint64_t>(),
+                        .report = collected["report"],
+                        .leaks = check.empty() ? Json() : collected["leaks"]};
+    for (const size_t task : result.tasks)
+        if (const auto record = find_record(".", plan, task)) run.seconds += record->seconds;
+    return run;
+}
+
+}  // namespace tetralight::cli
