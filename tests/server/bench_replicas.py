@@ -2,6 +2,7 @@
 """Queries that fail while replicas behind HAProxy stop, die and restart: one JSON object a line."""
 import json
 import signal
+import sys
 import time
 import unittest
 
@@ -9,8 +10,8 @@ from balancer import NAMES, Load, Query, ReplicaTest, has_haproxy
 from test_query import FLOATS, OCCLUSION
 
 ROUNDS = 3
-# Positions: some fit in a buffer of HAProxy with their answers, others do not.
-SMALL, LARGE, TOO_LARGE = 50, 6000, 20000
+# Positions. The first two fit in a buffer of HAProxy, and their answers in one write of the server.
+SMALL, LARGE, TOO_LARGE = 50, 3500, 20000
 
 
 @unittest.skipUnless(has_haproxy(), "there is no haproxy")
@@ -26,6 +27,7 @@ class Bench(ReplicaTest):
             self.restart_reader(number)
         load.stop()
         self.balancer.stop()
+        print(*load.failures, sep="\n", file=sys.stderr)
         return load
 
     def report(self, name, load, **more):
