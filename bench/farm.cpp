@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bakes in tasks: what they are expected to cost, how equal they are, and joining them.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -46,9 +47,9 @@ void bench_rays(const BakeSubject& subject) {
         settings.target_error = target;
         const auto estimate = estimate_rays(subject.scene, {subject.probes, {}}, settings, {});
         require(bool(estimate), "estimate");
-        report(str_cat("farm.cost_rays.", subject.name, ".", target),
-               estimate->sum() / sum(real_rays(subject.scene, subject.probes, settings)),
-               "of the rays of the bake");
+        const double rays = sum(real_rays(subject.scene, subject.probes, settings));
+        report(str_cat("farm.cost_rays.", subject.name, ".", target), estimate->sum() / rays,
+               str_cat("of the ", std::llround(rays), " rays of the bake"));
     }
 }
 
@@ -69,7 +70,7 @@ void bench_bytes(const BakeSubject& subject) {
 
 /// Most rays of a task over the mean of 64 tasks, of probes in the order of a bake.
 void bench_imbalance(const BakeSubject& subject) {
-    constexpr size_t kTasks = 64, kProbes = 4096;
+    constexpr size_t kTasks = 64, kProbes = 1024;
     BakeVolumeSettings settings;
     settings.bake.target_error = 0.05;
     const std::vector<ProbeGroup> groups{
