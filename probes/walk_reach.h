@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include <tetralight/base/box.h>
+#include <tetralight/probes/probe_volume.h>
+
+namespace tetralight {
+
+/// Finds the cells that walks may visit, so that a part of a volume can hold all of them
+/// (probes/build/cut_world.h). Keeps memory of 4 bytes a cell between calls.
+class WalkReach {
+  public:
+    /// Precondition: the volume has tetrahedra, passes `verify`, and outlives this object.
+    explicit WalkReach(const ProbeVolumeView& volume);
+
+    /// The cells that a walk from `start` to any position of a local box may visit, and some more.
+    /// Valid until the next call. The box may be unbounded along one axis; of walks to positions of
+    /// an unbounded box over hull cells, only `start` is listed.
+    ///
+    /// A walk leaves a tetrahedron by a face only if the position lies beyond it, up to rounding:
+    /// each face that a part of the box lies beyond is followed. Of hull cells, whose walls are
+    /// curved, the weights of nine positions of the box decide, with a tolerance.
+    [[nodiscard]] std::span<const uint32_t> cells_from(uint32_t start,
+                                                       const Box<glm::dvec3>& region);
+
+  private:
+    void visit(uint32_t cell);
+    void leave_tetrahedron(uint32_t cell, const Box<glm::dvec3>& region);
+    void leave_hull_cell(uint32_t cell, const Box<glm::dvec3>& region);
+
+    const ProbeVolumeView& volume_;
+    std::vector<uint32_t> visited_;  ///< the number of the call that visited each cell last
+    uint32_t call_ = 0;
+    std::vector<uint32_t> cells_;
+};
+
+/// True if a tetrahedron may touch a local box: its own box does, and no plane of a face separates
+/// them. True for some that nearly touch it. Precondition: `cell` is a tetrahedron.
+[[nodiscard]] bool may_touch(const ProbeVolumeView& volume, uint32_t cell,
+                             const Box<glm::dvec3>& box);
+
+}  // namespace tetralight
