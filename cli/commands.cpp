@@ -20,6 +20,7 @@ constexpr Command kCommands[] = {
     {&settings::kMerge, run_merge},
     {&settings::kPrune, run_prune},
     {&settings::kTetrahedralize, run_tetrahedralize},
+    {&settings::kWorld, run_world},
     {&settings::kQuery, run_query},
     {&settings::kRelight, run_relight},
     {&settings::kLppv, run_lppv},

@@ -117,7 +117,7 @@ struct Table {
 
 extern const Table kBackup, kBake, kBakeAll, kCheckLeaks, kCollect, kExplain, kExport, kFsck, kGrid,
     kInfo, kLightmap, kLppv, kMerge, kMeshball, kPlan, kPrune, kQuery, kReflect, kRelight, kRender,
-    kRestore, kServe, kTask, kTetrahedralize, kUnwrap, kValidate;
+    kRestore, kServe, kTask, kTetrahedralize, kUnwrap, kValidate, kWorld;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -12,6 +12,8 @@
 #include <tetralight/probes/build/detail/cut_cells.h>
 #include <tetralight/probes/build/detail/seed_voxels.h>
 #include <tetralight/probes/build/detail/select_probes.h>
+#include <tetralight/probes/section_file.h>
+#include <tetralight/probes/volume_members.h>
 #include <tetralight/probes/walk_reach.h>
 
 namespace tetralight {
@@ -67,12 +69,26 @@ Status lay_out_tiles(const glm::dvec3& tile_size, WorldIndex& index) {
     return Ok{};
 }
 
+/// Bytes of the volume as a file.
+uint64_t file_size(const ProbeVolumeView& volume) {
+    constexpr uint64_t kAlign = detail::kAlignment;
+    uint64_t size = sizeof(detail::FileHeader) + sizeof(detail::SectionEntry) + sizeof volume.info;
+    for_each_volume_member([&](const char*, MemberUse, auto, auto member) {
+        const std::span elements = volume.*member;
+        if (elements.empty()) return;
+        size = (size + kAlign - 1) / kAlign * kAlign + elements.size_bytes();
+        size += sizeof(detail::SectionEntry);
+    });
+    return (size + kAlign - 1) / kAlign * kAlign;
+}
+
 WorldInfo world_info(const ProbeVolumeView& volume) {
     WorldInfo info;
     info.world_origin = volume.info.world_origin;
     const Box<glm::dvec3> box = box_of_probes(volume);
     info.box_min = box.min;
     info.box_max = box.max;
+    info.volume_size = file_size(volume);
     info.probe_count = volume.probe_count();
     info.cell_count = static_cast<uint32_t>(volume.cells.size());
     info.inner_cell_count = volume.info.inner_cell_count;
