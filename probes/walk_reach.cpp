@@ -19,10 +19,10 @@ constexpr double kVolumeRounding = 1e-12;
 /// are tested they may be this much smaller.
 constexpr double kHullTolerance = 0.05;
 
-using Corners = std::array<glm::dvec3, 4>;
+using TetraCorners = std::array<glm::dvec3, 4>;
 
-Corners corners_of(const ProbeVolumeView& volume, uint32_t cell, size_t count) {
-    Corners corners{};
+TetraCorners corners_of(const ProbeVolumeView& volume, uint32_t cell, size_t count) {
+    TetraCorners corners{};
     for (size_t i = 0; i < count; ++i) {
         corners[i] = glm::dvec3(volume.positions[volume.cells[cell].vertices[i]]);
     }
@@ -72,7 +72,7 @@ struct CornerPlane {
     }
 };
 
-double farthest_corner(const Box<glm::dvec3>& box, const Corners& corners, size_t count) {
+double farthest_corner(const Box<glm::dvec3>& box, const TetraCorners& corners, size_t count) {
     double farthest = 0.0;
     for (size_t i = 0; i < count; ++i) {
         farthest = std::max(farthest, farthest_difference(box, corners[i]));
@@ -124,7 +124,7 @@ std::span<const uint32_t> WalkReach::cells_from(uint32_t start, const Box<glm::d
 }
 
 void WalkReach::leave_tetrahedron(uint32_t cell, const Box<glm::dvec3>& region) {
-    const Corners corners = corners_of(volume_, cell, 4);
+    const TetraCorners corners = corners_of(volume_, cell, 4);
     const double farthest = farthest_corner(region, corners, 4);
     for (size_t face = 0; face < 4; ++face) {
         const auto& [a, b, c] = kOutwardFaces[face];
@@ -136,7 +136,7 @@ void WalkReach::leave_tetrahedron(uint32_t cell, const Box<glm::dvec3>& region) 
 
 void WalkReach::leave_hull_cell(uint32_t cell, const Box<glm::dvec3>& region) {
     if (!is_bounded(region)) return;
-    const Corners corners = corners_of(volume_, cell, 3);
+    const TetraCorners corners = corners_of(volume_, cell, 3);
     const auto& neighbors = volume_.cells[cell].neighbors;
     const CornerPlane behind(corners[0], corners[2], corners[1]);
     bool may_enter = behind.may_be_passed(region, farthest_corner(region, corners, 3));
@@ -157,7 +157,7 @@ void WalkReach::leave_hull_cell(uint32_t cell, const Box<glm::dvec3>& region) {
 }
 
 bool may_touch(const ProbeVolumeView& volume, uint32_t cell, const Box<glm::dvec3>& box) {
-    const Corners corners = corners_of(volume, cell, 4);
+    const TetraCorners corners = corners_of(volume, cell, 4);
     auto bounds = Box<glm::dvec3>::empty();
     for (const glm::dvec3& corner : corners) bounds = union_of(bounds, corner);
     if (!all(lessThanEqual(bounds.min, box.max)) || !all(lessThanEqual(box.min, bounds.max))) {

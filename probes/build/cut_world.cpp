@@ -98,31 +98,31 @@ WorldInfo world_info(const ProbeVolumeView& volume) {
     return info;
 }
 
-/// Marks elements of a list by their place in it.
-struct Places {
-    std::vector<uint32_t> place;
-    std::vector<uint32_t> list;
-
-    void add(uint32_t element) {
-        if (place[element] != kNoIndex) return;
-        place[element] = 0;
-        list.push_back(element);
-    }
-
-    void sort() {
-        std::ranges::sort(list);
-        for (uint32_t i = 0; i < list.size(); ++i) place[list[i]] = i;
-    }
-
-    void clear() {
-        for (const uint32_t element : list) place[element] = kNoIndex;
-        list.clear();
-    }
-};
-
 }  // namespace
 
 struct WorldCutter::State {
+    /// Marks elements of a list by their place in it.
+    struct Places {
+        std::vector<uint32_t> place;
+        std::vector<uint32_t> list;
+
+        void add(uint32_t element) {
+            if (place[element] != kNoIndex) return;
+            place[element] = 0;
+            list.push_back(element);
+        }
+
+        void sort() {
+            std::ranges::sort(list);
+            for (uint32_t i = 0; i < list.size(); ++i) place[list[i]] = i;
+        }
+
+        void clear() {
+            for (const uint32_t element : list) place[element] = kNoIndex;
+            list.clear();
+        }
+    };
+
     ProbeVolumeView volume;
     WorldIndex index;
     WalkReach reach;

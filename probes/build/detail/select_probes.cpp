@@ -10,7 +10,7 @@ namespace {
 
 /// An array with one element a probe, or layer after layer with one a probe each; or empty.
 template <class T>
-void select(std::span<const T> from, std::span<const uint32_t> probes, size_t probe_count,
+void select_each(std::span<const T> from, std::span<const uint32_t> probes, size_t probe_count,
             std::vector<T>& to) {
     if (from.empty()) return;
     to.reserve(from.size() / probe_count * probes.size());
@@ -32,19 +32,19 @@ ProbeVolume select_probes(const ProbeVolumeView& volume, std::span<const uint32_
     part.info = volume.info;
     part.info.seed_cube = {};
     const size_t count = volume.positions.size();
-    select(volume.positions, probes, count, part.positions);
-    select(volume.irradiance, probes, count, part.irradiance);
-    select(volume.occlusion, probes, count, part.occlusion);
-    select(volume.validity, probes, count, part.validity);
-    select(volume.health, probes, count, part.health);
-    select(volume.compact, probes, count, part.compact);
-    select(volume.exact_positions, probes, count, part.exact_positions);
-    select(volume.rendering_layers, probes, count, part.rendering_layers);
-    select(volume.occlusion_lights, probes, count, part.occlusion_lights);
-    select(volume.layer_irradiance, probes, count, part.layer_irradiance);
-    select(volume.layer_errors, probes, count, part.layer_errors);
-    select(volume.transfer, probes, count, part.transfer);
-    select(volume.dering, probes, count, part.dering);
+    select_each(volume.positions, probes, count, part.positions);
+    select_each(volume.irradiance, probes, count, part.irradiance);
+    select_each(volume.occlusion, probes, count, part.occlusion);
+    select_each(volume.validity, probes, count, part.validity);
+    select_each(volume.health, probes, count, part.health);
+    select_each(volume.compact, probes, count, part.compact);
+    select_each(volume.exact_positions, probes, count, part.exact_positions);
+    select_each(volume.rendering_layers, probes, count, part.rendering_layers);
+    select_each(volume.occlusion_lights, probes, count, part.occlusion_lights);
+    select_each(volume.layer_irradiance, probes, count, part.layer_irradiance);
+    select_each(volume.layer_errors, probes, count, part.layer_errors);
+    select_each(volume.transfer, probes, count, part.transfer);
+    select_each(volume.dering, probes, count, part.dering);
     for (const ProbeSource& source : volume.sources) {
         if (source.probe == kNoIndex || places[source.probe] == kNoIndex) continue;
         part.sources.push_back({source.group, source.index, places[source.probe]});
