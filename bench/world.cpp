@@ -36,8 +36,8 @@ IrradianceSh analytic_light(const glm::dvec3& p) {
 }
 
 ProbeVolume make_level(size_t probes_a_tile) {
-    std::vector<glm::dvec3> positions = random_positions(
-        probes_a_tile * kTilesAlong * kTilesAlong, 1, kTilesAlong * kTileSide);
+    std::vector<glm::dvec3> positions =
+        random_positions(probes_a_tile * kTilesAlong * kTilesAlong, 1, kTilesAlong * kTileSide);
     for (glm::dvec3& p : positions) p.y /= kTilesAlong;
     const ProbeGroup group = make_group("level", std::move(positions));
     ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
@@ -62,8 +62,7 @@ double mapped_memory() {
 glm::dvec3 camera_at(int step) {
     const double along = static_cast<double>(step) / kSteps;
     const double length = kTilesAlong * kTileSide;
-    return {length * along, 0.5 * kTileSide,
-            length * (0.5 + 0.4 * std::sin(9.0 * along))};
+    return {length * along, 0.5 * kTileSide, length * (0.5 + 0.4 * std::sin(9.0 * along))};
 }
 
 class Flight {
@@ -129,8 +128,9 @@ void bench_world_queries(const ProbeVolume& volume, World& world, const std::str
     contest.work = static_cast<double>(positions.size()) * 1e-6;
     contest.ours = [&] {
         return seconds([&] {
-            require(bool(interpolate(*world.tiles(), {.positions = positions, .irradiance = light})),
-                    "a batch of a world");
+            require(
+                bool(interpolate(*world.tiles(), {.positions = positions, .irradiance = light})),
+                "a batch of a world");
         });
     };
     contest.baseline = [&] {
@@ -160,12 +160,11 @@ void bench_size(size_t probes_a_tile, const std::string& size, const Options& op
     report("farm.world.memory." + size, flight.most_open / whole, "of the volume");
     report("farm.world.read_memory." + size, flight.most_read / whole, "of the volume");
     report("farm.world.copies." + size,
-           static_cast<double>(summary->probe_count) / summary->info.probe_count,
-           "tiles a probe");
+           static_cast<double>(summary->probe_count) / summary->info.probe_count, "tiles a probe");
     report("farm.world.answers." + size, static_cast<double>(flight.answer_count), "equal answers");
     report("farm.world.longest_move." + size, 1e3 * flight.longest_move, "ms");
-    report("farm.world.cut." + size,
-           1e-6 * static_cast<double>(summary->info.probe_count) / time, "Mprobes/s");
+    report("farm.world.cut." + size, 1e-6 * static_cast<double>(summary->info.probe_count) / time,
+           "Mprobes/s");
     bench_world_queries(volume, *world, size, options);
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);

@@ -96,11 +96,9 @@ struct Query {
         }
         auto world = World::open(volume_path);
         if (!world) return world.error();
-        const auto precision =
-            is_half ? WorldBatch::Precision::Fast : WorldBatch::Precision::Full;
-        return answer([&](FileWriter& writer) {
-            return AnswerWriter(*world, precision, settings, writer);
-        });
+        const auto precision = is_half ? WorldBatch::Precision::Fast : WorldBatch::Precision::Full;
+        return answer(
+            [&](FileWriter& writer) { return AnswerWriter(*world, precision, settings, writer); });
     }
 
     template <class MakeAnswers>

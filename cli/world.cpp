@@ -24,8 +24,7 @@ Status run_world(const Values& values) {
     const CommonOptions common(values);
     const auto file = open_probe_file(path);
     if (!file) return file.error();
-    const auto summary =
-        write_world(folder, file->view(), world_settings(values, file->view()));
+    const auto summary = write_world(folder, file->view(), world_settings(values, file->view()));
     if (!summary) {
         Error error = summary.error();
         // Settings have other names here than in the library.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <tetralight/base/file.h>
@@ -106,8 +108,7 @@ class WorldWriter {
             {kWorldProbesSection, std::as_bytes(std::span(cut.probes)), sizeof(uint32_t)}};
         const auto bytes = probe_file_bytes(cut.volume.view(), extra);
         const uint64_t sum = detail::checksum(bytes);
-        const std::string name =
-            str_cat(kTilePrefix, tile, "-", hex(sum), kTileSuffix);
+        const std::string name = str_cat(kTilePrefix, tile, "-", hex(sum), kTileSuffix);
         index_.tiles[tile] = cut.entry;
         index_.tiles[tile].file_size = bytes.size();
         index_.tile_names += name + "\n";
@@ -125,8 +126,8 @@ double tile_side_for(const ProbeVolumeView& volume, uint64_t probes_a_tile) {
     auto box = Box<glm::dvec3>::empty();
     for (const glm::vec3& p : volume.positions) box = union_of(box, glm::dvec3(p));
     const glm::dvec3 size = box.size();
-    const double wanted = std::max(1.0, static_cast<double>(volume.probe_count()) /
-                                            static_cast<double>(probes_a_tile));
+    const double wanted = std::max(
+        1.0, static_cast<double>(volume.probe_count()) / static_cast<double>(probes_a_tile));
     double small = 0.0;
     double large = std::max({size.x, size.y, size.z, 1e-6});
     for (int i = 0; i < 60; ++i) {  // bisection

@@ -26,7 +26,8 @@ struct WorldSummary {
 /// Called after each tile; false stops the work.
 using WorldProgress = std::function<bool(uint32_t done, uint32_t count)>;
 
-/// The sides of cubes that cut a volume into tiles of about so many probes. Precondition: count > 0.
+/// The sides of cubes that cut a volume into tiles of about so many probes. Precondition: count >
+/// 0.
 [[nodiscard]] double tile_side_for(const ProbeVolumeView& volume, uint64_t probes_a_tile);
 
 /// Cuts a volume into a folder: a file for each tile, named after its content, and the index. The

@@ -163,9 +163,8 @@ bool may_touch(const ProbeVolumeView& volume, uint32_t cell, const Box<glm::dvec
     if (!all(lessThanEqual(bounds.min, box.max)) || !all(lessThanEqual(box.min, bounds.max))) {
         return false;
     }
-    const double volume =
-        glm::dot(corners[1] - corners[0],
-                 glm::cross(corners[2] - corners[0], corners[3] - corners[0]));
+    const double volume = glm::dot(corners[1] - corners[0],
+                                   glm::cross(corners[2] - corners[0], corners[3] - corners[0]));
     const double farthest = farthest_corner(box, corners, 4);
     // Float positions can turn a flat tetrahedron inside out.
     if (!(volume > kVolumeRounding * farthest * farthest * farthest)) return true;

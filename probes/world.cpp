@@ -116,10 +116,12 @@ std::shared_ptr<const WorldTiles> World::tiles() const {
 WorldMove World::move_to(const glm::dvec3& position, double radius) {
     const WorldIndexView index = this->index();
     const auto open = state_->current();
+
     struct Near {
         double distance = 0.0;
         uint32_t tile = 0;
     };
+
     std::vector<Near> near;
     for (uint32_t tile = 0; tile < index.tiles.size(); ++tile) {
         const double distance = distance_to_tile(index, tile, position);
@@ -155,8 +157,8 @@ WorldMove World::open_only(std::span<const uint32_t> wanted) {
         if (next->files_[tile]) continue;
         next->files_[tile] = open->files_[tile];
         if (next->files_[tile]) continue;
-        auto file = open_tile_file(state_->paths[tile], state_->index->info,
-                                   state_->index->tiles[tile]);
+        auto file =
+            open_tile_file(state_->paths[tile], state_->index->info, state_->index->tiles[tile]);
         if (!file) {
             move.failures.push_back(file.error());
             continue;

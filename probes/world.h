@@ -30,9 +30,7 @@ class WorldTiles {
     [[nodiscard]] WorldIndexView index() const noexcept { return index_->view(); }
 
     /// The file of a tile; null if it is not open. Precondition: the tile exists.
-    [[nodiscard]] const ProbeFile* find(uint32_t tile) const noexcept {
-        return files_[tile].get();
-    }
+    [[nodiscard]] const ProbeFile* find(uint32_t tile) const noexcept { return files_[tile].get(); }
 
     [[nodiscard]] bool is_open(uint32_t tile) const noexcept { return files_[tile] != nullptr; }
 

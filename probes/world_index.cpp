@@ -95,12 +95,12 @@ Status check_world_counts(const WorldIndexView& index) {
         if (count >= index.tiles.size()) break;
     }
     if (count + 1 != index.tiles.size()) {
-        return section_error("tiles", str_cat(index.tiles.size(), " elements instead of ",
-                                              count + 1));
+        return section_error("tiles",
+                             str_cat(index.tiles.size(), " elements instead of ", count + 1));
     }
     if (border_count != index.borders.size()) {
-        return section_error("borders", str_cat(index.borders.size(), " elements instead of ",
-                                                border_count));
+        return section_error("borders",
+                             str_cat(index.borders.size(), " elements instead of ", border_count));
     }
     const size_t names = split_names(index.tile_names).size();
     if (names == index.tiles.size()) return Ok{};
@@ -194,8 +194,8 @@ double distance_to_tile(const WorldIndexView& index, uint32_t tile,
     // To the nearest side of the box of all probes, from inside.
     const glm::dvec3 from_min = local - index.info.box_min;
     const glm::dvec3 from_max = index.info.box_max - local;
-    const double least = std::min({from_min.x, from_min.y, from_min.z, from_max.x, from_max.y,
-                                   from_max.z});
+    const double least =
+        std::min({from_min.x, from_min.y, from_min.z, from_max.x, from_max.y, from_max.z});
     return std::max(least, 0.0);
 }
 

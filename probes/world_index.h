@@ -107,7 +107,8 @@ struct WorldPlace {
     glm::vec3 seed_position{0.0f};
 };
 
-[[nodiscard]] WorldPlace find_place(const WorldIndexView& index, const glm::vec3& position) noexcept;
+[[nodiscard]] WorldPlace find_place(const WorldIndexView& index,
+                                    const glm::vec3& position) noexcept;
 
 /// The cell of a tile in which a walk begins, as that of the uncut volume does.
 [[nodiscard]] uint32_t start_cell(const ProbeVolumeView& tile, const WorldPlace& place) noexcept;

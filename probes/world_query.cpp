@@ -100,7 +100,8 @@ class WorldQuery {
                 continue;
             }
             const uint32_t hull_index = cells[cell] - index_.info.inner_cell_count;
-            again.push_back({starts[i].position, index_.tiles[outside].inner_cell_count + hull_index});
+            again.push_back(
+                {starts[i].position, index_.tiles[outside].inner_cell_count + hull_index});
         }
         return again.empty() ? Status(Ok{}) : answer(outside, again, batch_.outside);
     }

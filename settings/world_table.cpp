@@ -6,8 +6,9 @@ namespace {
 
 constexpr Setting output_folder() {
     Setting setting = output_file(
-        "", "Folder of the world: an index, and a probe volume for each tile. An older world in it "
-            "stays whole until the new one is complete");
+        "",
+        "Folder of the world: an index, and a probe volume for each tile. An older world in it "
+        "stays whole until the new one is complete");
     setting.value_name = "FOLDER";
     return setting;
 }

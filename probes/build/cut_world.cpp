@@ -48,9 +48,9 @@ Status lay_out_tiles(const glm::dvec3& tile_size, WorldIndex& index) {
         const auto a = static_cast<int>(axis);
         const double side = tile_size[a];
         if (!(side > 0.0)) {
-            return cannot_cut("tile_size", str_cat(side),
-                              str_cat("tiles of ", side, " m along ", kAxisNames[axis],
-                                      " have no size"));
+            return cannot_cut(
+                "tile_size", str_cat(side),
+                str_cat("tiles of ", side, " m along ", kAxisNames[axis], " have no size"));
         }
         const double length = index.info.box_max[a] - index.info.box_min[a];
         const double along = std::max(std::ceil(length / side), 1.0);
@@ -242,10 +242,9 @@ struct WorldCutter::State {
             const std::array<uint32_t, 3> at{voxel % grid.size[0],
                                              voxel / grid.size[0] % grid.size[1],
                                              voxel / grid.size[0] / grid.size[1]};
-            voxels.visit_voxel(grid, 0, at, outside_box(at), 1,
-                               [&](uint32_t start, const Box<glm::dvec3>& part) {
-                                   keep_walks_from(start, part);
-                               });
+            voxels.visit_voxel(
+                grid, 0, at, outside_box(at), 1,
+                [&](uint32_t start, const Box<glm::dvec3>& part) { keep_walks_from(start, part); });
         }
     }
 
@@ -316,10 +315,9 @@ struct WorldCutter::State {
                 grid.scale[axis] > 0.0f ? grid.min[axis] + first / grid.scale[axis] : 0.0f;
         }
         std::vector<uint32_t> chosen;
-        for_each_voxel({entry.first_voxel, entry.voxel_counts},
-                       [&](uint32_t, uint32_t, uint32_t, uint32_t voxel) {
-                           chosen.push_back(voxel);
-                       });
+        for_each_voxel(
+            {entry.first_voxel, entry.voxel_counts},
+            [&](uint32_t, uint32_t, uint32_t, uint32_t voxel) { chosen.push_back(voxel); });
         return detail::cut_seed_grid(volume, header, chosen, cells.place);
     }
 };

@@ -43,8 +43,8 @@ struct CutTile {
 class WorldCutter {
   public:
     /// Returns invalid_argument if the volume has no tetrahedra or no seed grid, if a tile has no
-    /// size, or if there would be more than kMostTiles. Precondition: the volume passes `verify` and
-    /// outlives this object.
+    /// size, or if there would be more than kMostTiles. Precondition: the volume passes `verify`
+    /// and outlives this object.
     [[nodiscard]] static Result<WorldCutter> make(const ProbeVolumeView& volume,
                                                   const WorldSettings& settings);
 

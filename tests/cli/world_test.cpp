@@ -48,7 +48,8 @@ TEST_F(WorldCommand, QueriesHaveTheBytesOfThoseOfTheVolume) {
              {"--json", "--walls", "ignore"},
              {"--json", "--outside", "clamp"},
              {"--json", "--outside", "ambient", "--fade", "3", "--radius", "0.3"}}) {
-        Arguments of_volume{"query", "v.probes", "p.txt", "-q"}, of_world{"query", "w", "p.txt", "-q"};
+        Arguments of_volume{"query", "v.probes", "p.txt", "-q"},
+            of_world{"query", "w", "p.txt", "-q"};
         of_volume.insert(of_volume.end(), options.begin(), options.end());
         of_world.insert(of_world.end(), options.begin(), options.end());
         const std::string expected = succeed(of_volume).out;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <limits>
 
 #include "tests/support/cut_worlds.h"
@@ -34,12 +35,11 @@ TEST_F(WorldQueryTest, SaysWhichPositionsHaveNoAnswer) {
         *world->tiles(), {.positions = positions, .irradiance = light, .states = states});
     ASSERT_TRUE(report);
     EXPECT_EQ(*report, (WorldReport{1, 1, 0}));
-    EXPECT_EQ(states, (std::vector{WorldState::Answered, WorldState::Closed,
-                                   WorldState::NotFinite}));
+    EXPECT_EQ(states,
+              (std::vector{WorldState::Answered, WorldState::Closed, WorldState::NotFinite}));
     EXPECT_EQ(light[1], volume.info.ambient);
     EXPECT_EQ(light[2], volume.info.ambient);
-    EXPECT_EQ(light[0],
-              interpolate(volume.view(), locate(volume.view(), positions[0])).irradiance);
+    EXPECT_EQ(light[0], interpolate(volume.view(), locate(volume.view(), positions[0])).irradiance);
 }
 
 TEST_F(WorldQueryTest, PoliciesOutsideNeedTheTileOutside) {
@@ -53,8 +53,7 @@ TEST_F(WorldQueryTest, PoliciesOutsideNeedTheTileOutside) {
     const std::vector<glm::vec3> positions{corner};
     world->open_only(tiles_of(world->index(), positions));
     const OutsideHull clamp{OutsidePolicy::Clamp, 1.0f};
-    const auto closed =
-        interpolate(*world->tiles(), {.positions = positions, .outside = clamp});
+    const auto closed = interpolate(*world->tiles(), {.positions = positions, .outside = clamp});
     ASSERT_TRUE(closed);
     EXPECT_EQ(closed->closed_count, 1u);
     test::expect_same_answers(volume.view(), *world->tiles(), positions);

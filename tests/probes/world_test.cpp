@@ -123,8 +123,7 @@ TEST_F(WorldTest, QueriesGoOnWhileTilesOpenAndClose) {
     do {
         test::expect_same_answers(volume.view(), *before, positions);
         std::vector<WorldState> states(positions.size());
-        const auto report =
-            interpolate(*world.tiles(), {.positions = positions, .states = states});
+        const auto report = interpolate(*world.tiles(), {.positions = positions, .states = states});
         ASSERT_TRUE(report);
         ASSERT_TRUE(report->closed_count == 0 || report->closed_count == positions.size());
     } while (!is_done);

@@ -76,10 +76,10 @@ inline void expect_same_answers(const ProbeVolumeView& volume, const WorldTiles&
         const auto cells = tiles.volume_cells(locations[i].tile);
         ASSERT_LT(found.cell, cells.size());
         found.cell = cells[found.cell];
-        ASSERT_EQ(found, expected) << "position " << i << ": " << positions[i].x << " "
-                                   << positions[i].y << " " << positions[i].z << " in tile "
-                                   << locations[i].tile << ": cell " << found.cell
-                                   << " instead of " << expected.cell;
+        ASSERT_EQ(found, expected)
+            << "position " << i << ": " << positions[i].x << " " << positions[i].y << " "
+            << positions[i].z << " in tile " << locations[i].tile << ": cell " << found.cell
+            << " instead of " << expected.cell;
         ASSERT_EQ(light[i], probe.irradiance) << "position " << i;
         ASSERT_EQ(occlusion[i], probe.occlusion) << "position " << i;
     }

@@ -128,8 +128,8 @@ class CellCutter {
         while (!is_kept(cell)) from = std::exchange(cell, next_around(edge, from, cell));
         if (!is_inner(cell)) return cell_places_[cell];
         const auto& neighbors = volume_.cells[cell].neighbors;
-        const auto face = static_cast<uint32_t>(std::ranges::find(neighbors, from) -
-                                                neighbors.begin());
+        const auto face =
+            static_cast<uint32_t>(std::ranges::find(neighbors, from) - neighbors.begin());
         return place_of_face_.at({cell, face});
     }
 

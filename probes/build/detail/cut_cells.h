@@ -21,9 +21,9 @@ struct CutCells {
 
 /// Cuts cells out of a volume of tetrahedra. `kept`: their indices, ascending; with each hull cell
 /// the tetrahedron before it, and with each tetrahedron the hull cells behind its faces.
-/// `cell_places` and `probe_places`: the index in the part of each kept cell, and of each probe that
-/// they have; others kNoIndex. Links at the cut go around each edge through the cells that are not
-/// kept, so that the part passes `verify`.
+/// `cell_places` and `probe_places`: the index in the part of each kept cell, and of each probe
+/// that they have; others kNoIndex. Links at the cut go around each edge through the cells that are
+/// not kept, so that the part passes `verify`.
 [[nodiscard]] CutCells cut_cells(const ProbeVolumeView& volume, std::span<const uint32_t> kept,
                                  std::span<const uint32_t> cell_places,
                                  std::span<const uint32_t> probe_places);

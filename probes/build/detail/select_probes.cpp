@@ -11,7 +11,7 @@ namespace {
 /// An array with one element a probe, or layer after layer with one a probe each; or empty.
 template <class T>
 void select_each(std::span<const T> from, std::span<const uint32_t> probes, size_t probe_count,
-            std::vector<T>& to) {
+                 std::vector<T>& to) {
     if (from.empty()) return;
     to.reserve(from.size() / probe_count * probes.size());
     for (size_t begin = 0; begin < from.size(); begin += probe_count) {
