@@ -13,7 +13,7 @@
 namespace tetralight {
 
 /// Finds the cells that walks may visit, so that a part of a volume can hold all of them
-/// (probes/build/cut_world.h). Keeps memory of 4 bytes a cell between calls.
+/// (probes/build/cut_world.h). Keeps memory of 12 bytes a cell between calls.
 class WalkReach {
   public:
     /// Precondition: the volume has tetrahedra, passes `verify`, and outlives this object.
@@ -24,20 +24,34 @@ class WalkReach {
     /// an unbounded box over hull cells, only `start` is listed.
     ///
     /// A walk leaves a tetrahedron by a face only if the position lies beyond it, up to rounding:
-    /// each face that a part of the box lies beyond is followed. Of hull cells, whose walls are
+    /// each face that a part of the box lies beyond is followed. In a Delaunay tetrahedralization
+    /// each step brings the walk to a circumsphere with a smaller power of the position
+    /// (Edelsbrunner 1990), which excludes cells far from the box. Of hull cells, whose walls are
     /// curved, the weights of nine positions of the box decide, with a tolerance.
     [[nodiscard]] std::span<const uint32_t> cells_from(uint32_t start,
                                                        const Box<glm::dvec3>& region);
 
   private:
+    void follow(uint32_t start, const Box<glm::dvec3>& region, int split_count);
+    [[nodiscard]] bool walk_all(uint32_t start, const Box<glm::dvec3>& region, size_t limit);
     void visit(uint32_t cell);
-    void leave_tetrahedron(uint32_t cell, const Box<glm::dvec3>& region);
+    void enter(uint32_t tetrahedron);
+    void walk_inside(uint32_t start, const Box<glm::dvec3>& region, size_t limit);
     void leave_hull_cell(uint32_t cell, const Box<glm::dvec3>& region);
 
     const ProbeVolumeView& volume_;
-    std::vector<uint32_t> visited_;  ///< the number of the call that visited each cell last
+    // The number of the last call, pass and walk that came to each cell.
+    std::vector<uint32_t> listed_;
+    std::vector<uint32_t> visited_;
+    std::vector<uint32_t> reached_;
     uint32_t call_ = 0;
+    uint32_t pass_ = 0;  ///< to a part of the box
+    uint32_t walk_ = 0;  ///< of a pass, from one tetrahedron
     std::vector<uint32_t> cells_;
+    std::vector<uint32_t> visits_;      ///< of the pass
+    std::vector<uint32_t> hull_cells_;  ///< those of them, in order
+    std::vector<uint32_t> entries_;     ///< tetrahedra where walks begin or come from a hull cell
+    std::vector<uint32_t> queue_;
 };
 
 /// True if a tetrahedron may touch a local box: its own box does, and no plane of a face separates

@@ -69,7 +69,7 @@ struct WorldTile {
     bool operator==(const WorldTile&) const = default;
 };
 
-static_assert(sizeof(WorldTile) == 56 && std::is_trivially_copyable_v<WorldTile>);
+static_assert(sizeof(WorldTile) == 48 && std::is_trivially_copyable_v<WorldTile>);
 
 /// Read-only spans over an index.
 struct WorldIndexView {
