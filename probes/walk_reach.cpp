@@ -33,10 +33,12 @@ constexpr double kPowerSlack = 1.0;
 /// precision, in cubes of the longest difference.
 constexpr double kChoiceRounding = 1e-5;
 
-/// If more cells may be visited on the way to a box, its eighths are followed one by one: a walk
-/// to one of them may visit fewer.
+/// If more cells may be visited on the way to a box, its eighths are followed one by one.
 constexpr size_t kManyCells = 64;
-constexpr int kMostSplits = 4;
+
+/// Of each eighth, or of an unbounded box, at most about so many cells are listed, those of the
+/// fewest steps.
+constexpr size_t kMostCells = 128;
 
 using TetraCorners = std::array<glm::dvec3, 4>;
 
@@ -204,23 +206,29 @@ WalkReach::WalkReach(const ProbeVolumeView& volume)
 std::span<const uint32_t> WalkReach::cells_from(uint32_t start, const Box<glm::dvec3>& region) {
     next_number(call_, listed_);
     cells_.clear();
-    follow(start, region, 0);
+    follow(start, region);
     return cells_;
 }
 
-void WalkReach::follow(uint32_t start, const Box<glm::dvec3>& region, int split_count) {
-    const bool can_split = split_count < kMostSplits && is_bounded(region);
-    if (!walk_all(start, region, can_split ? kManyCells : volume_.cells.size())) {
-        for (int part = 0; part < 8; ++part) {
-            Box<glm::dvec3> eighth = region;
-            for (int axis = 0; axis < 3; ++axis) {
-                const bool is_upper = (part >> axis & 1) != 0;
-                (is_upper ? eighth.min : eighth.max)[axis] = region.center()[axis];
-            }
-            follow(start, eighth, split_count + 1);
+void WalkReach::follow(uint32_t start, const Box<glm::dvec3>& region) {
+    if (!is_bounded(region)) return list_walks(start, region);
+    if (walk_all(start, region, kManyCells)) return list_visits();
+    for (int part = 0; part < 8; ++part) {
+        Box<glm::dvec3> eighth = region;
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool is_upper = (part >> axis & 1) != 0;
+            (is_upper ? eighth.min : eighth.max)[axis] = region.center()[axis];
         }
-        return;
+        list_walks(start, eighth);
     }
+}
+
+void WalkReach::list_walks(uint32_t start, const Box<glm::dvec3>& region) {
+    (void)walk_all(start, region, kMostCells);
+    list_visits();
+}
+
+void WalkReach::list_visits() {
     for (const uint32_t cell : visits_) {
         if (listed_[cell] == call_) continue;
         listed_[cell] = call_;

@@ -19,20 +19,24 @@ class WalkReach {
     /// Precondition: the volume has tetrahedra, passes `verify`, and outlives this object.
     explicit WalkReach(const ProbeVolumeView& volume);
 
-    /// The cells that a walk from `start` to any position of a local box may visit, and some more.
-    /// Valid until the next call. The box may be unbounded along one axis; of walks to positions of
-    /// an unbounded box over hull cells, only `start` is listed.
+    /// The cells that a walk from `start` to any position of a local box, about the size of a
+    /// voxel, may visit, and some more. Valid until the next call.
     ///
-    /// A walk leaves a tetrahedron by a face only if the position lies beyond it, up to rounding:
-    /// each face that a part of the box lies beyond is followed. In a Delaunay tetrahedralization
-    /// each step brings the walk to a circumsphere with a smaller power of the position
-    /// (Edelsbrunner 1990), which excludes cells far from the box. Of hull cells, whose walls are
-    /// curved, the weights of nine positions of the box decide, with a tolerance.
+    /// A walk leaves a tetrahedron by a face only if the position lies beyond it and its signed
+    /// volume is the least, up to rounding: each face of which that holds for a part of the box is
+    /// followed. In a Delaunay tetrahedralization each step brings the walk to a circumsphere with
+    /// a smaller power of the position, which excludes cells far from the box. Of hull cells, whose
+    /// walls are curved, the weights of nine positions of the box decide, with a tolerance.
+    ///
+    /// Near the hull, cells are long and flat, and many may be visited: the search stops after some
+    /// hundred for each eighth of the box, those of the fewest steps first.
     [[nodiscard]] std::span<const uint32_t> cells_from(uint32_t start,
                                                        const Box<glm::dvec3>& region);
 
   private:
-    void follow(uint32_t start, const Box<glm::dvec3>& region, int split_count);
+    void follow(uint32_t start, const Box<glm::dvec3>& region);
+    void list_walks(uint32_t start, const Box<glm::dvec3>& region);
+    void list_visits();
     [[nodiscard]] bool walk_all(uint32_t start, const Box<glm::dvec3>& region, size_t limit);
     void visit(uint32_t cell);
     void enter(uint32_t tetrahedron);

@@ -238,28 +238,29 @@ struct WorldCutter::State {
             cells.add(cell);
         }
         const SeedGridHeader& grid = index.info.seed_grid;
+        const Box<glm::dvec3> box = outside_box();
         for (const uint32_t voxel : index.outside_voxels) {
             const std::array<uint32_t, 3> at{voxel % grid.size[0],
                                              voxel / grid.size[0] % grid.size[1],
                                              voxel / grid.size[0] / grid.size[1]};
             voxels.visit_voxel(
-                grid, 0, at, outside_box(at), 1,
+                grid, 0, at, box, 1,
                 [&](uint32_t start, const Box<glm::dvec3>& part) { keep_walks_from(start, part); });
         }
     }
 
-    /// The positions whose walks from a voxel at the border are followed: all, but at the edges and
-    /// corners of the grid those near it, from where walks go on over hull cells alone.
-    [[nodiscard]] Box<glm::dvec3> outside_box(const std::array<uint32_t, 3>& voxel) const {
+    /// The positions outside whose walks are followed: a voxel wide around the box of all probes,
+    /// from where walks go on over hull cells.
+    [[nodiscard]] Box<glm::dvec3> outside_box() const {
         const SeedGridHeader& grid = index.info.seed_grid;
-        const Box<glm::dvec3> region = voxels.region(grid, voxel);
-        const double reach_length = 0.05 * static_cast<double>(index.info.extent);
-        Box<glm::dvec3> near{index.info.box_min - reach_length, index.info.box_max + reach_length};
-        int unbounded_count = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            unbounded_count += !std::isfinite(region.min[axis]) || !std::isfinite(region.max[axis]);
+        Box<glm::dvec3> box{index.info.box_min, index.info.box_max};
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double voxel =
+                grid.scale[axis] > 0.0f ? 1.0 / static_cast<double>(grid.scale[axis]) : 0.0;
+            box.min[static_cast<int>(axis)] -= voxel + rounding;
+            box.max[static_cast<int>(axis)] += voxel + rounding;
         }
-        return unbounded_count > 1 ? near : region;
+        return box;
     }
 
     /// With each hull cell the tetrahedron before it, and with each tetrahedron the hull cells
