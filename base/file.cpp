@@ -58,6 +58,13 @@ Result<MappedFile> MappedFile::open(const std::string& path) {
     return MappedFile({static_cast<const std::byte*>(address), *size});
 }
 
+void MappedFile::release_pages() const noexcept {
+    // Pages of a private mapping that were never written are read from the file again.
+    if (!bytes_.empty()) {
+        (void)::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_DONTNEED);
+    }
+}
+
 MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {

@@ -34,6 +34,10 @@ class MappedFile {
 
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
 
+    /// Gives back the memory of pages that were read; the next read of one maps it again. May run
+    /// beside readers.
+    void release_pages() const noexcept;
+
   private:
     explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
 

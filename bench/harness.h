@@ -106,5 +106,7 @@ void bench_runtime(const Options& options);
 /// Reading scene files: time and memory.
 void bench_scene(const Options& options);
 void bench_tetrahedralize(const Options& options);
+/// Worlds of tiles: answers and memory along a flight.
+void bench_world(const Options& options);
 
 }  // namespace tetralight::bench

@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
 #ifdef TETRALIGHT_HAS_SERVER
         {"server", bench_server},
 #endif
-        {"tetrahedralize", bench_tetrahedralize}};
+        {"tetrahedralize", bench_tetrahedralize},
+        {"world", bench_world}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");
     Options options;

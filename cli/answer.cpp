@@ -21,27 +21,30 @@ void append_number(std::string& out, Number number) {
 
 /// Calls `visit(probe, weight)` for the probes of a location.
 template <class Visit>
-void for_each_probe(const CellLocation& location, const ProbeVolumeView& volume, Visit visit) {
-    if (location.cell >= volume.cells.size()) return;
+void for_each_probe(const CellLocation& location, const Cell& cell, Visit visit) {
     for (int i = 0; i < 4; ++i) {
-        const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
+        const uint32_t probe = cell.vertices[static_cast<size_t>(i)];
         if (probe != kNoIndex) visit(probe, location.weights[i]);
     }
 }
 
 }  // namespace
 
+AnswerCell answer_cell(const ProbeVolumeView& volume, uint32_t cell) {
+    if (cell >= volume.cells.size()) return {};
+    return {&volume.cells[cell], cell >= volume.info.inner_cell_count, volume.info.dimension};
+}
+
 void append_text(std::string& out, const glm::vec3& position, const CellLocation& location,
-                 const RawAnswer& answer, const ProbeVolumeView& volume) {
+                 const RawAnswer& answer, const AnswerCell& cell) {
     out += str_cat(position.x, " ", position.y, " ", position.z);
-    if (location.cell >= volume.cells.size()) {
+    if (cell.cell == nullptr) {
         out += ": ambient\n";
         return;
     }
-    const bool is_outside = location.cell >= volume.info.inner_cell_count;
-    out += str_cat(": ", is_outside ? "hull cell" : cell_name(volume.info.dimension), " ",
+    out += str_cat(": ", cell.is_hull_cell ? "hull cell" : cell_name(cell.dimension), " ",
                    location.cell, ", probes");
-    for_each_probe(location, volume,
+    for_each_probe(location, *cell.cell,
                    [&](uint32_t probe, float weight) { out += str_cat(" ", probe, "×", weight); });
     if (location.ambient > 0.0f) out += str_cat(", ambient×", location.ambient);
     const glm::vec3 up = evaluate_irradiance(answer.irradiance, {0.0f, 1.0f, 0.0f});
@@ -49,9 +52,10 @@ void append_text(std::string& out, const glm::vec3& position, const CellLocation
 }
 
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
-                 const RawAnswer& answer, const ProbeVolumeView& volume) {
+                 const RawAnswer& answer, const AnswerCell& cell) {
     char line[kAnswerJsonSize];
-    char* end = write_json(line, volume, {position, location, answer.irradiance, answer.occlusion});
+    char* end =
+        write_json(line, cell.cell, {position, location, answer.irradiance, answer.occlusion});
     *end++ = '\n';
     out.append(line, end);
 }

@@ -25,13 +25,22 @@ struct RawAnswer {
 
 static_assert(sizeof(RawAnswer) == 128 && std::is_trivially_copyable_v<RawAnswer>);
 
+/// The cell that gave an answer.
+struct AnswerCell {
+    const Cell* cell = nullptr;  ///< null: none
+    bool is_hull_cell = false;
+    Dimension dimension = Dimension::None;
+};
+
+[[nodiscard]] AnswerCell answer_cell(const ProbeVolumeView& volume, uint32_t cell);
+
 /// Appends a line for people: the cell, its probes with their weights, the light from above.
 void append_text(std::string& out, const glm::vec3& position, const CellLocation& location,
-                 const RawAnswer& answer, const ProbeVolumeView& volume);
+                 const RawAnswer& answer, const AnswerCell& cell);
 
 /// Appends a line with the JSON object of `write_json`.
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
-                 const RawAnswer& answer, const ProbeVolumeView& volume);
+                 const RawAnswer& answer, const AnswerCell& cell);
 
 /// Appends a line of numbers, the shortest that read back to the same floats.
 void append_csv(std::string& out, const glm::vec3& position, const RawAnswer& answer);

@@ -13,9 +13,11 @@
 #include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/volume_facts.h>
+#include <tetralight/cli/world_report.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/build/wireframe.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/world.h>
 
 namespace tetralight::cli {
 namespace {
@@ -60,6 +62,7 @@ struct Info {
         }
         if (is_scene) return run_scene();
         if (!without_scene) return without_scene;
+        if (is_world(path)) return run_of_world();
         if (is_lightmap_file(path)) return run_lightmaps();
         if (is_reflection_file(path)) return run_reflections();
         const auto file = open_probe_file(path);
@@ -95,6 +98,12 @@ struct Info {
         if (!has_other()) return show_scene(path, reading, common);
         return Error{ErrorCode::InvalidArgument, "volume", path,
                      path + ": is a scene, which has no tetrahedra and no health of probes"};
+    }
+
+    [[nodiscard]] Status run_of_world() const {
+        if (!has_other()) return show_world(path, common);
+        return Error{ErrorCode::InvalidArgument, "volume", path,
+                     path + ": is a world; describe its tiles (tile-*.probes) one by one"};
     }
 
     [[nodiscard]] Status run_lightmaps() const {

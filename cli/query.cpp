@@ -8,6 +8,7 @@
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/position_reader.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/world.h>
 
 namespace tetralight::cli {
 namespace {
@@ -76,6 +77,7 @@ struct Query {
         if (auto status = check_output(output, {volume_path, positions_path}); !status) {
             return status;
         }
+        if (is_world(volume_path)) return run_world();
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
@@ -83,16 +85,30 @@ struct Query {
             return Error{ErrorCode::InvalidArgument, "precision", "half",
                          volume_path + ": holds no half-precision probes; use --precision full"};
         }
-        return answer(is_half ? file->view() : file->view().without_compact());
+        const ProbeVolumeView view = is_half ? file->view() : file->view().without_compact();
+        return answer([&](FileWriter& writer) { return AnswerWriter(view, settings, writer); });
     }
 
-    Status answer(const ProbeVolumeView& volume) {
+    Status run_world() {
+        if (normals == Normals::Given) {
+            return Error{ErrorCode::InvalidArgument, "normals", "",
+                         volume_path + ": is a world, which answers positions without normals"};
+        }
+        auto world = World::open(volume_path);
+        if (!world) return world.error();
+        const auto precision = is_half ? WorldBatch::Precision::Fast : WorldBatch::Precision::Full;
+        return answer(
+            [&](FileWriter& writer) { return AnswerWriter(*world, precision, settings, writer); });
+    }
+
+    template <class MakeAnswers>
+    Status answer(const MakeAnswers& make_answers) {
         const auto start = std::chrono::steady_clock::now();
         auto reader = ByteReader::open(positions_path);
         if (!reader) return reader.error();
         auto writer = FileWriter::open(output);
         if (!writer) return writer.error();
-        AnswerWriter answers(volume, settings, *writer);
+        AnswerWriter answers = make_answers(*writer);
         PositionChunks chunks(normals, [&](auto positions, auto with_normals) {
             return answers.write(positions, with_normals);
         });
@@ -100,6 +116,7 @@ struct Query {
         if (auto status = read_positions(*reader, format, chunks); !status) return status;
         if (auto status = answers.finish(); !status) return status;
         warn_of_not_finite(*reader, answers.not_finite_count());
+        warn_of_lost(*reader, answers.lost_count());
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (output != "-") report(answers, elapsed.count());
         return Ok{};
@@ -110,6 +127,13 @@ struct Query {
         common.warn(
             {str_cat(reader.name(), ": ", counted(count, "position"), count == 1 ? " is" : " are",
                      " not finite and got the ambient light")});
+    }
+
+    void warn_of_lost(const ByteReader& reader, uint64_t count) const {
+        if (count == 0) return;
+        common.warn({str_cat(reader.name(), ": the tiles of ", counted(count, "position"),
+                             " do not have the cells that the search went through; ",
+                             count == 1 ? "it" : "they", " got the ambient light")});
     }
 
     void report(const AnswerWriter& answers, double seconds) const {

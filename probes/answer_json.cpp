@@ -63,15 +63,20 @@ class Writer {
 }  // namespace
 
 char* write_json(char* to, const ProbeVolumeView& volume, const AnsweredPosition& answer) noexcept {
+    const uint32_t cell = answer.location.cell;
+    return write_json(to, cell < volume.cells.size() ? &volume.cells[cell] : nullptr, answer);
+}
+
+char* write_json(char* to, const Cell* cell, const AnsweredPosition& answer) noexcept {
     Writer writer(to);
     writer.text(R"({"position":)");
     writer.vector(answer.position);
     writer.text(R"(,"cell":)");
     const CellLocation& location = answer.location;
-    if (location.cell < volume.cells.size()) {
+    if (cell != nullptr) {
         writer.index(location.cell);
         writer.text(R"(,"probes":[)");
-        writer.probes(volume.cells[location.cell], location.weights);
+        writer.probes(*cell, location.weights);
     } else {
         writer.text(R"(null,"probes":[)");
     }

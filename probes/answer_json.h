@@ -31,4 +31,7 @@ inline constexpr size_t kAnswerJsonSize = 1024;
 [[nodiscard]] char* write_json(char* to, const ProbeVolumeView& volume,
                                const AnsweredPosition& answer) noexcept;
 
+/// The same with the cell itself; null if there is none.
+[[nodiscard]] char* write_json(char* to, const Cell* cell, const AnsweredPosition& answer) noexcept;
+
 }  // namespace tetralight

@@ -36,6 +36,10 @@ class ProbeFile {
     [[nodiscard]] std::optional<std::span<const std::byte>> section_bytes(
         std::string_view name, uint64_t element_size) const noexcept;
 
+    /// Gives back the memory of what was read; queries read it from the file again. May run beside
+    /// queries.
+    void release_pages() const noexcept { file_.mapping.release_pages(); }
+
   private:
     friend struct ProbeFileReader;
     ProbeFile() = default;

@@ -7,7 +7,7 @@ namespace {
 constexpr Setting kFiles[] = {
     input_file("volume",
                "Probe volume, lightmaps, reflection probes or scene (.probes, .lightmaps, .ktx2, "
-               ".glb, .gltf)"),
+               ".glb, .gltf), or folder of a world"),
     {.name = "obj",
      .type = Type::Path,
      .help = "Also write the edges of the tetrahedra as line elements, for any viewer: Wavefront "

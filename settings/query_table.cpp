@@ -5,7 +5,7 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume (.probes)"),
+    input_file("volume", "Probe volume (.probes), or folder of a world"),
     {.name = "positions",
      .type = Type::Path,
      .help = "Positions, by default x y z on each line (- = stdin)",

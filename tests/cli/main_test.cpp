@@ -14,7 +14,7 @@ TEST_F(Main, SaysItsVersion) {
 TEST_F(Main, HelpListsTheSubcommands) {
     const std::string out = succeed({"--help"}).out;
     for (const char* name : {"bake", "grid", "info", "merge", "meshball", "prune", "query",
-                             "render", "tetrahedralize", "validate"}) {
+                             "render", "tetrahedralize", "validate", "world"}) {
         EXPECT_TRUE(contains(out, std::string("\n  ") + name)) << name;
     }
 }
@@ -63,7 +63,7 @@ class EverySubcommand : public CommandFixture, public testing::WithParamInterfac
 
 INSTANTIATE_TEST_SUITE_P(Main, EverySubcommand,
                          testing::Values("bake", "grid", "info", "merge", "meshball", "prune",
-                                         "query", "render", "tetrahedralize", "validate"),
+                                         "query", "render", "tetrahedralize", "validate", "world"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(EverySubcommand, HelpHasAnExample) {
