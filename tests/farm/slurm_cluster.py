@@ -77,7 +77,7 @@ def wait_until(is_true, seconds, what):
     end = time.monotonic() + seconds
     while not is_true():
         if time.monotonic() > end:
-            raise TimeoutError("waited in vain: " + what)
+            raise TimeoutError("waited too long: " + what)
         time.sleep(0.1)
 
 
