@@ -39,7 +39,7 @@ struct CutTile {
     WorldTile entry;
 };
 
-/// Cuts one tile at a time. Keeps about 12 bytes a cell of the volume.
+/// Cuts one tile at a time. Keeps about 20 bytes a cell of the volume.
 class WorldCutter {
   public:
     /// Returns invalid_argument if the volume has no tetrahedra or no seed grid, if a tile has no
