@@ -21,6 +21,7 @@ namespace {
 constexpr int kTilesAlong = 8;
 constexpr double kTileSide = 64.0;  // metres
 constexpr double kRadius = 16.0;
+constexpr double kHysteresis = 4.0;
 constexpr int kSteps = 400;
 constexpr size_t kQueriesAStep = 2'000;
 
@@ -58,11 +59,14 @@ double mapped_memory() {
     return 0.0;
 }
 
-/// From a corner to the opposite one, in curves.
+/// From one side to the opposite one, in curves, and always so far from the sides that the tile
+/// outside stays closed.
 glm::dvec3 camera_at(int step) {
     const double along = static_cast<double>(step) / kSteps;
     const double length = kTilesAlong * kTileSide;
-    return {length * along, 0.5 * kTileSide, length * (0.5 + 0.4 * std::sin(9.0 * along))};
+    const double from_side = kRadius + 2.0 * kHysteresis;
+    return {from_side + (length - 2.0 * from_side) * along, 0.5 * kTileSide,
+            length * (0.5 + 0.4 * std::sin(9.0 * along))};
 }
 
 class Flight {
@@ -152,13 +156,15 @@ void bench_size(size_t probes_a_tile, const std::string& size, const Options& op
     });
     require(bool(summary), "writing a world");
     require(summary->tile_count == kTilesAlong * kTilesAlong + 1, "the number of tiles");
-    auto world = World::open(folder, {.hysteresis = 4.0});
+    auto world = World::open(folder, {.hysteresis = kHysteresis});
     require(bool(world), "opening a world");
     const auto whole = static_cast<double>(summary->info.volume_size);
     Flight flight(volume, *world);
     flight.run();
     report("farm.world.memory." + size, flight.most_open / whole, "of the volume");
     report("farm.world.read_memory." + size, flight.most_read / whole, "of the volume");
+    report("farm.world.outside_tile." + size,
+           static_cast<double>(summary->outside_tile_size) / whole, "of the volume");
     report("farm.world.copies." + size,
            static_cast<double>(summary->probe_count) / summary->info.probe_count, "tiles a probe");
     report("farm.world.answers." + size, static_cast<double>(flight.answer_count), "equal answers");

@@ -58,9 +58,8 @@ constexpr Setting kTaskFiles[] = {kJob, task_number()};
 constexpr Setting kProgress[] = {
     {.name = "progress",
      .type = Type::Choice,
-     .help =
-         "Lines about the progress: plain = \"Progress: 40%\" on stderr, as most schedulers "
-         "read it; openjd = \"openjd_progress: 40\" on stdout (Open Job Description)",
+     .help = "Lines about the progress: plain = \"Progress: 40%\" on stderr, as most schedulers "
+             "read it; openjd = \"openjd_progress: 40\" on stdout (Open Job Description)",
      .choices = "plain openjd",
      .default_text = "plain",
      .access = Access::Command}};

@@ -35,7 +35,7 @@ class WorldCommand : public CommandFixture {
 };
 
 TEST_F(WorldCommand, QueriesHaveTheBytesOfThoseOfTheVolume) {
-    const Json report = run_json({"world", "v.probes", "--tile", "3", "-o", "w"});
+    const Json report = run_json({"world", "v.probes", "--tile", "8", "-o", "w"});
     EXPECT_GT(report["tiles"], 3);
     EXPECT_EQ(names_in("w").size(), report["tiles"].get<size_t>() + 2);
     write("p.txt", positions(500) + "nan 0 0\n");
@@ -76,16 +76,16 @@ TEST_F(WorldCommand, InfoVerifiesAllTiles) {
 }
 
 TEST_F(WorldCommand, ANewWorldReplacesTheOldOne) {
-    succeed({"world", "v.probes", "--tile", "3", "-o", "w"});
+    succeed({"world", "v.probes", "--tile", "8", "-o", "w"});
     const auto first = names_in("w");
-    const Json second = run_json({"world", "v.probes", "--tile", "6", "-o", "w"});
+    const Json second = run_json({"world", "v.probes", "--tile", "12", "-o", "w"});
     EXPECT_EQ(names_in("w").size(), second["tiles"].get<size_t>() + 2);
-    succeed({"world", "v.probes", "--tile", "3", "-o", "w"});
+    succeed({"world", "v.probes", "--tile", "8", "-o", "w"});
     EXPECT_EQ(names_in("w"), first) << "files are named after their content";
 }
 
 TEST_F(WorldCommand, AFailureLeavesTheOldWorld) {
-    succeed({"world", "v.probes", "--tile", "5", "-o", "w"});
+    succeed({"world", "v.probes", "--tile", "10", "-o", "w"});
     const auto before = names_in("w");
     EXPECT_TRUE(contains(fail({"world", "v.probes", "--tile", "0.0001", "-o", "w"}), "tiles"));
     EXPECT_TRUE(contains(fail({"world", "nothing.probes", "-o", "w"}), "nothing.probes"));
