@@ -103,9 +103,9 @@ class WarningOfDescriptors {
     explicit WarningOfDescriptors(Log& log) : log_(&log) {}
 
     void operator()(size_t closed) {
-        constexpr auto kPause = std::chrono::minutes(1);
+        constexpr auto kBetweenWarnings = std::chrono::minutes(1);
         const auto now = std::chrono::steady_clock::now();
-        if (last_ && now - *last_ < kPause) return;
+        if (last_ && now - *last_ < kBetweenWarnings) return;
         last_ = now;
         log_->write(Log::Level::Warning,
                     "descriptors run out; the connections that were idle longest are closed",

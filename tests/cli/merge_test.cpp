@@ -34,10 +34,10 @@ TEST_F(Merge, JsonHasTheDocumentedFields) {
     const Json json = run_json({"merge", "a.part", "-o", "v.probes"});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    EXPECT_EQ(keys, (std::vector<std::string>{"dimension", "groups", "hull_cells", "inner_cells",
-                                              "output", "over_target", "parts", "probes", "rays",
-                                              "samples_per_probe", "standard_error", "unseen",
-                                              "walls", "welded"}));
+    EXPECT_EQ(keys, (std::vector<std::string>{"dilated", "dimension", "groups", "hull_cells",
+                                              "inner_cells", "output", "over_target", "parts",
+                                              "probes", "rays", "samples_per_probe",
+                                              "standard_error", "unseen", "walls", "welded"}));
 }
 
 TEST_F(Merge, PartsSayWhatTheyHold) {
