@@ -115,7 +115,7 @@ uint64_t RoundPlan::expected_samples(const ProbeAccumulator& accumulator,
     const double ratio = excess(accumulator, layer_error);
     const double needed = static_cast<double>(accumulator.sample_count) * ratio * ratio;
     if (needed >= static_cast<double>(max_samples_)) return max_samples_;
-    uint64_t round = accumulator.round_count + 1;
+    uint64_t round = 1;
     while (static_cast<double>(samples_before(round)) < needed) ++round;
     return samples_before(round);
 }

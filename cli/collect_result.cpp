@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/json_file.h>
@@ -66,7 +67,15 @@ Status measure_leaks(const PlanResult& result, const std::string& output, const 
 
 Result<CollectedResult> collect_result(const PlanFile& plan, const PlanResult& result,
                                        const std::string& folder, const CommonOptions& common) {
-    const auto missing = tasks_to_do(".", plan, result.tasks);
+    std::vector<size_t> missing;
+    double seconds = 0.0;
+    for (const size_t task : result.tasks) {
+        const auto record = find_record(".", plan, task);
+        if (record)
+            seconds += record->seconds;
+        else
+            missing.push_back(task);
+    }
     if (!missing.empty()) {
         return tasks_missing(missing, result.tasks.size())
             .in(str_cat(result.scene, ": ", result.kind));
@@ -82,14 +91,12 @@ Result<CollectedResult> collect_result(const PlanFile& plan, const PlanResult& r
         const auto status = measure_leaks(result, output, check, common, collected);
         if (!status) return status.error();
     }
-    CollectedResult run{.output = output,
-                        .was_done = was_done,
-                        .bytes = collected["bytes"].get<uint64_t>(),
-                        .report = collected["report"],
-                        .leaks = check.empty() ? Json() : collected["leaks"]};
-    for (const size_t task : result.tasks)
-        if (const auto record = find_record(".", plan, task)) run.seconds += record->seconds;
-    return run;
+    return CollectedResult{.output = output,
+                           .was_done = was_done,
+                           .bytes = collected["bytes"].get<uint64_t>(),
+                           .seconds = seconds,
+                           .report = collected["report"],
+                           .leaks = check.empty() ? Json() : collected["leaks"]};
 }
 
 }  // namespace tetralight::cli

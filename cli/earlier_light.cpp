@@ -65,6 +65,7 @@ Result<bool> take_earlier_light(const std::string& job, const std::string& folde
     if (auto status = keep_file(earlier, fs::path(job) / kept); !status) return status.error();
     result.command = {{"command", "relight"}, {"volume", kept}, {"weights", std::move(*weights)}};
     result.lamps["strengths"] = lamps["strengths"];
+    result.bytes = record["bytes"].get<size_t>();
     return true;
 }
 

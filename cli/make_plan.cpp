@@ -162,12 +162,13 @@ class Planner {
         const std::string path = str_cat("prepared/", order.name, ".probes");
         Piece piece{result_of(order, "probes", ".probes", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}, {"prepared", path}};
-        piece.result.bytes = estimate_bytes(prepared);
-        const auto is_relit =
-            relights(scene, prepared.settings.lighting, content_without_lamps(prepared), piece);
+        const auto is_relit = relights(
+            scene, prepared.settings.lighting, [&] { return content_without_lamps(prepared); },
+            piece);
         if (!is_relit) return is_relit.error();
         if (*is_relit) return Ok{};
         if (!keep_tasks(piece)) {
+            piece.result.bytes = estimate_bytes(prepared);
             if (auto status = write_prepared_bake(in_job(path), prepared); !status) return status;
             const auto estimate =
                 estimate_rays(scene, {prepared.capture_positions}, prepared.settings.bake,
@@ -192,12 +193,15 @@ class Planner {
     }
 
     /// Adds a piece without tasks if only lamps of layers of their own changed their strength.
+    /// `content`: gives what the result depends on beside the scene (`lamps_json`).
+    template <class Content>
     Result<bool> relights(const Scene& scene, const LightingSettings& lighting,
-                          const std::string& content, Piece& piece) {
+                          const Content& content, Piece& piece) {
+        if (settings_.earlier_folder.empty() || lighting.layers.empty()) return false;
         const auto lamps = lamp_strengths(scene, lighting);
         if (!lamps) return lamps.error();
-        piece.result.lamps = lamps_json(*lamps, content);
-        if (settings_.earlier_folder.empty()) return false;
+        if (lamps->strengths.empty()) return false;
+        piece.result.lamps = lamps_json(*lamps, content());
         const auto is_relit =
             take_earlier_light(settings_.job, settings_.earlier_folder, piece.result);
         if (!is_relit) return is_relit.error();
@@ -280,12 +284,12 @@ class Planner {
                           const PreparedLightmaps& prepared) {
         Piece piece{result_of(order, "lightmaps", ".lightmaps", hex(prepared.key)), {}};
         piece.result.command = {{"command", "merge"}};
-        piece.result.bytes = estimate_bytes(prepared);
-        const auto is_relit =
-            relights(scene, prepared.settings.lighting, dump(*order.lightmaps), piece);
+        const auto is_relit = relights(
+            scene, prepared.settings.lighting, [&] { return dump(*order.lightmaps); }, piece);
         if (!is_relit) return is_relit.error();
         if (*is_relit) return Ok{};
         if (!keep_tasks(piece)) {
+            piece.result.bytes = estimate_bytes(prepared);
             const auto estimate = estimate_rays(scene, prepared.places(), prepared.settings.bake,
                                                 prepared.occlusion_lights, watch_signals);
             if (!estimate) return estimate.error();
@@ -339,7 +343,8 @@ class Planner {
                     dump(reflection_places_json(places)), key_of_file(inputs.lightmaps_path));
         const std::string key = key_of(content + hex(scene_key(scene)));
         Piece piece{result_of(order, "reflections", ".ktx2", key), {}};
-        const auto is_relit = relights(scene, {.layers = inputs.settings.layers}, content, piece);
+        const auto is_relit = relights(
+            scene, {.layers = inputs.settings.layers}, [&] { return content; }, piece);
         if (!is_relit) return is_relit.error();
         if (*is_relit) return Ok{};
         command["store"] = str_cat("cubes/", order.name);
@@ -407,6 +412,7 @@ class Planner {
             piece.tasks.push_back(
                 {static_cast<size_t>(phase - old_.phases.begin()), old_.tasks[index]});
         }
+        piece.result.bytes = same->bytes;
         return true;
     }
 

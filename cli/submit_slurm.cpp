@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tetralight/cli/json_file.h>
 #include <tetralight/cli/submit_slurm.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
 
-#include <tetralight/base/file.h>
-#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/slurm_script.h>
@@ -69,14 +67,7 @@ Result<std::string> send(const CommandWords& words, const std::string& folder) {
 
 /// Numbers of the jobs that `submitted.json` names.
 std::vector<std::string> earlier_jobs(const std::string& job) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(submitted_path(job), ignored)) return {};
-    const auto bytes = read_file(submitted_path(job).string());
-    if (!bytes) return {};
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (!check_json_object(text)) return {};
-    const Json json = Json::parse(text);
-    const Json list = json.value("jobs", Json::array());
+    const Json list = read_object(submitted_path(job)).value("jobs", Json::array());
     std::vector<std::string> jobs;
     for (const Json& one : list) {
         const Json number = one.is_object() ? one.value("job", Json()) : Json();
@@ -99,9 +90,9 @@ Status check_earlier_jobs_ended(const std::string& job) {
 }
 
 Status write_submitted(const Submission& submission, const Json& jobs) {
-    const Json json{{"format", kSubmittedFormat}, {"version", 1}, {"to", "slurm"}, {"jobs", jobs}};
-    const std::string text = dump(json, 1) + "\n";
-    return write_file(submitted_path(submission.job).string(), std::as_bytes(std::span(text)));
+    return write_json(
+        submitted_path(submission.job),
+        {{"format", kSubmittedFormat}, {"version", 1}, {"to", "slurm"}, {"jobs", jobs}});
 }
 
 /// Cancels what was sent; returns the error, which says so.

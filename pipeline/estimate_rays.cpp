@@ -2,7 +2,6 @@
 #include <tetralight/pipeline/estimate_rays.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <tetralight/bake/layer_errors.h>
@@ -19,10 +18,6 @@ constexpr size_t kMost = 1024;
 constexpr size_t kShare = 16;
 /// Samples of a sampled place: with fewer, light that is seldom found is not known of.
 constexpr uint32_t kFirstSamples = 1024;
-
-/// Errors fall with this power of the samples: faster than the square root, because directions are
-/// spread evenly. Fitted on three scenes (docs/farm.md).
-constexpr double kErrorFall = 0.5;
 
 /// The sampled places: the middles of equal pieces of all places.
 std::vector<size_t> spread_indices(size_t count) {
@@ -48,23 +43,12 @@ BakeSettings first_round(BakeSettings settings) {
     return settings;
 }
 
-/// Samples that a place is expected to have when it is done, from those of its first ones.
-/// `worst_layer`: the error of its worst layer, if there is a target for layers.
-double expected_samples(const RoundPlan& plan, const BakeSettings& settings,
-                        const ProbeAccumulator& accumulator, float worst_layer) {
-    if (!plan.has_target()) return static_cast<double>(plan.max_samples());
-    double excess = 0.0;  // errors over targets
-    if (settings.target_error > 0.0)
-        excess = double{accumulator.sampling_error(plan.measure())} / settings.target_error;
-    if (plan.has_layer_target())
-        excess = std::max(excess, double{worst_layer} / settings.target_layer_error);
-    const double needed = static_cast<double>(accumulator.sample_count) *
-                          std::pow(std::max(excess, 0.0), 1.0 / kErrorFall);
-    uint64_t round = 1;
-    while (static_cast<double>(plan.samples_before(round)) < needed &&
-           plan.samples_in_round(round) > 0)
-        ++round;
-    return static_cast<double>(plan.samples_before(round));
+/// Samples that a place is expected to have when it is done. All have the first round, which may be
+/// larger than what was sampled. `worst_layer`: the error of its worst layer, if it has a target.
+uint64_t expected_samples(const RoundPlan& plan, const ProbeAccumulator& accumulator,
+                          float worst_layer) {
+    if (!plan.has_target()) return plan.max_samples();
+    return std::max(plan.samples_before(1), plan.expected_samples(accumulator, worst_layer));
 }
 
 }  // namespace
@@ -101,7 +85,7 @@ Result<RayEstimate> estimate_rays(const Scene& scene, const BakePlaces& places,
         const std::vector<float> errors =
             plan.has_layer_target() ? layer_errors(layout, accumulator, row) : std::vector<float>{};
         const float worst = errors.empty() ? 0.0f : *std::ranges::max_element(errors);
-        expected.push_back(expected_samples(plan, settings, accumulator, worst) *
+        expected.push_back(static_cast<double>(expected_samples(plan, accumulator, worst)) *
                            static_cast<double>(accumulator.ray_count) /
                            static_cast<double>(accumulator.sample_count));
         traced += accumulator.ray_count;
