@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <tetralight/base/descriptor_io.h>
-#include <tetralight/base/file_writer.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
 
@@ -38,14 +37,6 @@ Result<std::vector<std::byte>> read_file(const std::string& path) {
     if (!count) return system_error(path, "read");
     bytes.resize(*count);
     return bytes;
-}
-
-Status write_file(const std::string& path, std::span<const std::span<const std::byte>> parts) {
-    return write_file(path, parts, WrittenFileCheck());
-}
-
-Status write_file(const std::string& path, std::span<const std::byte> bytes) {
-    return write_file(path, std::span(&bytes, 1));
 }
 
 Result<MappedFile> MappedFile::open(const std::string& path) {

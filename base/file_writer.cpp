@@ -4,13 +4,16 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <utility>
+#include <vector>
 
 #include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/shown_path.h>
+#include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 
 namespace tetralight {
@@ -94,43 +97,80 @@ Status FileWriter::write(std::span<const std::byte> bytes) {
     return Ok{};
 }
 
-Status write_file(const std::string& path, std::span<const std::span<const std::byte>> parts,
-                  const WrittenFileCheck& check) {
+namespace {
+
+Result<FileWriter> write_pieces(const std::string& path, FilePieces pieces) {
     auto writer = FileWriter::open(path);
-    if (!writer) return writer.error();
-    for (const auto part : parts) {
-        if (auto status = writer->write(part); !status) return status;
+    if (!writer) return writer;
+    for (const auto piece : pieces) {
+        if (auto status = writer->write(piece); !status) return status.error();
     }
-    return writer->commit(check);
+    return writer;
 }
 
-Status FileWriter::commit(const WrittenFileCheck& check) {
+}  // namespace
+
+Status write_file(const std::string& path, FilePieces pieces) {
+    auto writer = write_pieces(path, pieces);
+    if (!writer) return writer.error();
+    return writer->commit();
+}
+
+Status write_file(const std::string& path, std::span<const std::byte> bytes) {
+    return write_file(path, std::span(&bytes, 1));
+}
+
+Status write_compared_file(const std::string& path, FilePieces pieces) {
+    auto writer = write_pieces(path, pieces);
+    if (!writer) return writer.error();
+    return writer->commit(pieces);
+}
+
+Status FileWriter::commit() {
     if (target_.empty()) {
         if (!file_.close()) return system_error(path_, "write");
         return Ok{};
     }
-    if (!sync_content()) return system_error(path_, "write");
-    if (check) {
-        if (auto status = read_back(check); !status) return status;
-    }
-    if (!move_into_place()) return system_error(path_, "write");
+    if (!sync_content() || !move_into_place()) return system_error(path_, "write");
     temporary_.clear();
     if (!sync_folder(folder_of(target_))) return system_error(path_, "write");
     return Ok{};
+}
+
+Status FileWriter::commit(FilePieces expected) {
+    if (!target_.empty()) {
+        if (!sync_content()) return system_error(path_, "write");
+        if (auto status = compare_with(expected); !status) return status;
+    }
+    return commit();
 }
 
 bool FileWriter::sync_content() {
     return ::fchmod(file_.value(), final_mode(target_)) == 0 && ::fsync(file_.value()) == 0;
 }
 
-Status FileWriter::read_back(const WrittenFileCheck& check) {
-    const auto written =
-        MappedFile::open(temporary_.empty() ? path_of_descriptor(file_) : temporary_);
-    if (!written) return written.error().in(shown_path(path_));
-    const Status status = check(written->bytes());
-    if (status) return Ok{};
-    return status.error().in(shown_path(path_) +
-                             ": was not replaced, as what was written is wrong");
+Status FileWriter::compare_with(FilePieces expected) const {
+    constexpr size_t kBlockSize = 1 << 20;  // a mapped file would be in memory twice
+    std::vector<std::byte> block(kBlockSize);
+    const Error differs{ErrorCode::Corrupt,
+                        str_cat(shown_path(path_),
+                                ": was not replaced, as other bytes came back than were written")};
+    if (::lseek(file_.value(), 0, SEEK_SET) != 0) return system_error(path_, "read");
+    for (std::span<const std::byte> rest : expected) {
+        while (!rest.empty()) {
+            const auto wanted = rest.first(std::min(rest.size(), kBlockSize));
+            const auto count = read_up_to(file_, std::span(block).first(wanted.size()));
+            if (!count) return system_error(path_, "read");
+            if (*count != wanted.size() ||
+                !std::ranges::equal(wanted, std::span(block).first(*count))) {
+                return differs;
+            }
+            rest = rest.subspan(wanted.size());
+        }
+    }
+    const auto more = read_up_to(file_, std::span(block).first(1));
+    if (!more) return system_error(path_, "read");
+    return *more == 0 ? Status(Ok{}) : differs;
 }
 
 bool FileWriter::move_into_place() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 
@@ -11,8 +10,8 @@
 
 namespace tetralight {
 
-/// Checks the bytes of a file that was written, before it appears under its name.
-using WrittenFileCheck = std::function<Status(std::span<const std::byte> bytes)>;
+/// The bytes of a file, in pieces that follow each other.
+using FilePieces = std::span<const std::span<const std::byte>>;
 
 /// Writes a file piece by piece, and lets it appear at `path` only when it is complete:
 ///
@@ -33,17 +32,20 @@ class FileWriter {
 
     [[nodiscard]] Status write(std::span<const std::byte> bytes);
 
-    /// Syncs the file, reads it back for `check`, renames it to `path` and syncs the folder, so
-    /// that it survives a power cut. Call it once, at the end. stdout and devices are not read
-    /// back. Returns the error of `check`, too.
-    [[nodiscard]] Status commit(const WrittenFileCheck& check = {});
+    /// Syncs the file, renames it to `path` and syncs the folder, so that it survives a power cut.
+    /// Call it once, at the end.
+    [[nodiscard]] Status commit();
+
+    /// The same, but first reads the file back. Returns corrupt if it differs from `expected`, and
+    /// `path` keeps its old content. stdout and devices are not read back.
+    [[nodiscard]] Status commit(FilePieces expected);
 
   private:
     explicit FileWriter(const std::string& path) : path_(path == "-" ? "stdout" : path) {}
 
     bool open_beside();
     bool sync_content();
-    [[nodiscard]] Status read_back(const WrittenFileCheck& check);
+    [[nodiscard]] Status compare_with(FilePieces expected) const;
     bool move_into_place();
     bool give_name();
 
@@ -53,11 +55,9 @@ class FileWriter {
     Descriptor file_;
 };
 
-/// Like `write_file` in file.h, but reads the file back for `check` before it replaces an older
-/// one.
-[[nodiscard]] Status write_file(const std::string& path,
-                                std::span<const std::span<const std::byte>> parts,
-                                const WrittenFileCheck& check);
+/// Like `write_file` in file.h, but reads the file back and compares it with `pieces` before it
+/// replaces an older one.
+[[nodiscard]] Status write_compared_file(const std::string& path, FilePieces pieces);
 
 /// The path that a chain of symbolic links ends at, whether it exists or not. Returns an error if
 /// the links form a cycle.

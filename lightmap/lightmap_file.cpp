@@ -20,12 +20,6 @@ constexpr auto kLightmapMembers = [](auto visit) {
     for_each_lightmap_member([&](const char* name, auto, auto member) { visit(name, member); });
 };
 
-Status verify_written_lightmaps(std::span<const std::byte> bytes) {
-    detail::MappedSections<LightmapsView> file;
-    const Status status = detail::read_sections(kLightmapFileKind, bytes, file, kLightmapMembers);
-    return status ? detail::verify_sections(kLightmapFileKind, bytes, file.view) : status;
-}
-
 detail::SectionFileImage image_of(const LightmapsView& lightmaps,
                                   std::span<const ExtraSection> extra) {
     return detail::image_of_view(kLightmapFileKind, lightmaps, extra, kLightmapMembers);
@@ -80,7 +74,8 @@ std::vector<std::byte> lightmap_file_bytes(const LightmapsView& lightmaps,
 
 Status write_lightmap_file(const std::string& path, const LightmapsView& lightmaps,
                            std::span<const ExtraSection> extra) {
-    return write_file(path, image_of(lightmaps, extra).pieces, verify_written_lightmaps);
+    if (auto status = verify(lightmaps); !status) return status.error().in(shown_path(path));
+    return write_compared_file(path, image_of(lightmaps, extra).pieces);
 }
 
 }  // namespace tetralight

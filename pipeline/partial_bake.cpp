@@ -15,6 +15,7 @@
 #include <tetralight/pipeline/part_sections.h>
 #include <tetralight/pipeline/split_light.h>
 #include <tetralight/probes/section_error.h>
+#include <tetralight/probes/volume_members.h>
 
 namespace tetralight {
 namespace {
@@ -23,8 +24,10 @@ using detail::section_error;
 
 constexpr const char* kWriter = "bake --probes";
 
-/// A copy without the arrays that the end of a bake fills.
-ProbeVolume unlit_volume(ProbeVolumeView view) {
+/// A copy without the arrays that the end of a bake fills. Most memory of a bake is here: no more
+/// than one array is in memory twice.
+ProbeVolume unlit_volume(const ProbeFile& file) {
+    ProbeVolumeView view = file.view();
     view.occlusion = {};
     view.validity = {};
     view.compact = {};
@@ -32,7 +35,14 @@ ProbeVolume unlit_volume(ProbeVolumeView view) {
     view.layer_errors = {};
     view.transfer = {};
     view.dering = {};
-    return copy_volume(view);
+    file.release_pages();
+    ProbeVolume volume;
+    volume.info = view.info;
+    for_each_volume_member([&](const char*, MemberUse, auto owner, auto viewed) {
+        (volume.*owner).assign((view.*viewed).begin(), (view.*viewed).end());
+        file.release_pages();
+    });
+    return volume;
 }
 
 MergedProbes merged_probes(const ProbeVolume& volume, const std::vector<uint8_t>& dering) {
@@ -144,7 +154,7 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     if (info->invalid_probes > InvalidProbes::Keep || info->dering_window > DeringWindow::Lanczos) {
         return section_error("part", "a setting is unknown");
     }
-    part.prepared.volume = unlit_volume(file.view());
+    part.prepared.volume = unlit_volume(file);
     const auto dering = sections.read<uint8_t>("group_dering");
     part.prepared.merged = merged_probes(part.prepared.volume, dering);
     if (dering.size() != part.prepared.merged.group_names.size()) {

@@ -18,12 +18,6 @@ constexpr auto kMembers = [](auto visit) {
         [&](const char* name, MemberUse, auto, auto member) { visit(name, member); });
 };
 
-Status verify_written(std::span<const std::byte> bytes) {
-    detail::MappedSections<ProbeVolumeView> file;
-    const Status status = detail::read_sections(kProbeFileKind, bytes, file, kMembers);
-    return status ? detail::verify_sections(kProbeFileKind, bytes, file.view) : status;
-}
-
 detail::SectionFileImage image_of(const ProbeVolumeView& volume,
                                   std::span<const ExtraSection> extra) {
     return detail::image_of_view(kProbeFileKind, volume, extra, kMembers);
@@ -73,7 +67,8 @@ std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume,
 
 Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
                         std::span<const ExtraSection> extra) {
-    return write_file(path, image_of(volume, extra).pieces, verify_written);
+    if (auto status = verify(volume); !status) return status.error().in(shown_path(path));
+    return write_compared_file(path, image_of(volume, extra).pieces);
 }
 
 }  // namespace tetralight

@@ -134,12 +134,6 @@ Result<Contents> read_contents(std::span<const std::byte> bytes) {
     return contents;
 }
 
-Status verify_written_reflections(std::span<const std::byte> bytes) {
-    const auto contents = read_contents(bytes);
-    if (!contents) return contents.error();
-    return Ok{};
-}
-
 /// A text with the zero that ends it in key/value data.
 std::string_view with_zero(const std::string& text) {
     return {text.c_str(), text.size() + 1};
@@ -309,7 +303,7 @@ std::vector<std::byte> reflection_file_bytes(const Reflections& reflections) {
 Status write_reflection_file(const std::string& path, const Reflections& reflections) {
     if (auto status = check_written(reflections); !status) return status;
     const std::string head = make_head(reflections);
-    return write_file(path, pieces_of(head, reflections), verify_written_reflections);
+    return write_compared_file(path, pieces_of(head, reflections));
 }
 
 }  // namespace tetralight

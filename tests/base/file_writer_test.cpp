@@ -10,6 +10,8 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tetralight {
 namespace {
@@ -53,27 +55,27 @@ TEST_F(FileWriterTest, ReplacesTheFileAtTheEndOnly) {
     EXPECT_EQ(file_count(), 1);
 }
 
-TEST_F(FileWriterTest, ReplacesTheFileOnlyByBytesThatPassACheck) {
-    std::string seen;
-    const auto refuse = [&](std::span<const std::byte> bytes) -> Status {
-        seen.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        return Error{ErrorCode::Corrupt, "byte", "", "byte 1 is wrong"};
-    };
-    {
+TEST_F(FileWriterTest, ReplacesTheFileOnlyByTheBytesThatAreExpected) {
+    const auto commit_new = [this](std::vector<std::string_view> expected) -> Status {
+        std::vector<std::span<const std::byte>> pieces;
+        for (const std::string_view piece : expected)
+            pieces.push_back(std::as_bytes(std::span(piece)));
         auto writer = FileWriter::open(target());
-        ASSERT_TRUE(writer && write(*writer, "ne") && write(*writer, "w"));
-        const Status status = writer->commit(refuse);
+        if (!writer) return writer.error();
+        if (!write(*writer, "ne") || !write(*writer, "w"))
+            return Error{ErrorCode::Unavailable, "write"};
+        return writer->commit(pieces);
+    };
+    for (const auto& other :
+         {std::vector<std::string_view>{"new", "er"}, {"n", "a", "w"}, {"ne"}}) {
+        const Status status = commit_new(other);
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().code, ErrorCode::Corrupt);
         EXPECT_EQ(error_text(status.error()).find(target()), 0u);
+        EXPECT_EQ(contents(), "old");
+        EXPECT_EQ(file_count(), 1);
     }
-    EXPECT_EQ(seen, "new");
-    EXPECT_EQ(contents(), "old");
-    EXPECT_EQ(file_count(), 1);
-
-    auto writer = FileWriter::open(target());
-    ASSERT_TRUE(writer && write(*writer, "new"));
-    ASSERT_TRUE(writer->commit([](auto) { return Ok{}; }));
+    ASSERT_TRUE(commit_new({"n", "", "ew"}));
     EXPECT_EQ(contents(), "new");
 }
 
