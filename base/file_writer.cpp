@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -162,7 +163,7 @@ Status FileWriter::compare_with(FilePieces expected) const {
             const auto count = read_up_to(file_, std::span(block).first(wanted.size()));
             if (!count) return system_error(path_, "read");
             if (*count != wanted.size() ||
-                !std::ranges::equal(wanted, std::span(block).first(*count))) {
+                std::memcmp(wanted.data(), block.data(), *count) != 0) {
                 return differs;
             }
             rest = rest.subspan(wanted.size());

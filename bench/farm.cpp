@@ -48,7 +48,7 @@ void bench_rays(const BakeSubject& subject) {
         const auto estimate = estimate_rays(subject.scene, {subject.probes, {}}, settings, {});
         require(bool(estimate), "estimate");
         const double rays = sum(real_rays(subject.scene, subject.probes, settings));
-        report(str_cat("farm.cost_rays.", subject.name, ".", target), estimate->sum() / rays,
+        report(str_cat("farm.cost_rays.", subject.name, ".", target), estimate->rays / rays,
                str_cat("of the ", std::llround(rays), " rays of the bake"));
     }
 }
@@ -68,31 +68,21 @@ void bench_bytes(const BakeSubject& subject) {
            "of the bytes of the file");
 }
 
-/// Most rays of a task over the mean of 64 tasks, of probes in the order of a bake.
+/// Most rays of a task over the mean of 64 tasks.
 void bench_imbalance(const BakeSubject& subject) {
-    constexpr size_t kTasks = 64, kProbes = 1024;
+    constexpr size_t kTasks = 64, kProbes = 8192;
     BakeVolumeSettings settings;
     settings.bake.target_error = 0.05;
     const std::vector<ProbeGroup> groups{
         make_group("probes", free_positions(subject.scene, kProbes))};
     const auto prepared = prepare_bake(subject.scene, groups, settings);
     require(bool(prepared), "prepare");
-    const std::vector<glm::dvec3>& probes = prepared->capture_positions;
-    const auto estimate = estimate_rays(subject.scene, {probes, {}}, settings.bake, {});
-    require(bool(estimate), "estimate");
-    const std::vector<double> rays = real_rays(subject.scene, probes, settings.bake);
-    const auto largest = [&](const std::vector<PlaceRange>& ranges) {
-        double most = 0.0;
-        for (const PlaceRange& range : ranges) {
-            most = std::max(
-                most, std::accumulate(rays.begin() + range.begin, rays.begin() + range.end, 0.0));
-        }
-        return most * static_cast<double>(ranges.size()) / sum(rays);
-    };
-    report("farm.imbalance." + subject.name, largest(cut_ranges(estimate->rays, kTasks)),
-           "most over mean rays of a task");
-    const std::vector<double> equal(rays.size(), 1.0);
-    report("farm.imbalance_by_count." + subject.name, largest(cut_ranges(equal, kTasks)),
+    const std::vector<double> rays =
+        real_rays(subject.scene, prepared->capture_positions, settings.bake);
+    double most = 0.0;
+    for (const PlaceRange& range : spread_ranges(rays.size(), kTasks))
+        most = std::max(most, sum(take<double>(rays, range)));
+    report("farm.imbalance." + subject.name, most * kTasks / sum(rays),
            "most over mean rays of a task");
 }
 
@@ -111,8 +101,7 @@ class Parts {
         const auto prepared = prepare_bake(scene, groups, settings);
         require(bool(prepared), "prepare");
         require(bool(write_prepared_bake(prepared_path(), *prepared)), "write");
-        const std::vector<double> costs(prepared->volume.positions.size(), 1.0);
-        for (const PlaceRange& range : cut_ranges(costs, count)) {
+        for (const PlaceRange& range : spread_ranges(prepared->volume.positions.size(), count)) {
             const auto baked = bake_range(scene, *prepared, range);
             require(bool(baked), "bake");
             const std::string path = (folder() / str_cat(range.begin, ".part")).string();

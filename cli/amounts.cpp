@@ -4,13 +4,12 @@
 #include <cstdio>
 
 namespace tetralight::cli {
-std::optional<IndexRange> index_range(const Values& values, std::string_view name) {
-    const auto* ends = values.find(name);
-    if (ends == nullptr) return std::nullopt;
-    IndexRange range;
-    range.begin = ends->at(0).get<uint32_t>();
-    if (ends->size() > 1) range.end = ends->at(1).get<uint32_t>();
-    return range;
+
+std::optional<PlaceRange> place_range(const Values& values, std::string_view name) {
+    const auto* range = values.find(name);
+    if (range == nullptr) return std::nullopt;
+    return PlaceRange{range->at(0).get<uint32_t>(), range->at(1).get<uint32_t>(),
+                      range->at(2).get<uint32_t>()};
 }
 
 std::string percent(double fraction) {

@@ -8,21 +8,17 @@
 #include <vector>
 
 #include <tetralight/cli/values.h>
+#include <tetralight/pipeline/place_range.h>
 
 // Amounts as people write them.
 
 namespace tetralight::cli {
 
-/// Elements [begin, end).
-struct IndexRange {
-    uint32_t begin = 0;
-    uint32_t end = std::numeric_limits<uint32_t>::max();  ///< the largest: to the last one
-
-    bool operator==(const IndexRange&) const = default;
-};
+/// The `end` of a range to the last place.
+constexpr uint32_t kLastPlace = std::numeric_limits<uint32_t>::max();
 
 /// A setting of type Range; none if it was not given.
-[[nodiscard]] std::optional<IndexRange> index_range(const Values& values, std::string_view name);
+[[nodiscard]] std::optional<PlaceRange> place_range(const Values& values, std::string_view name);
 
 /// "1.25 %", two or three digits.
 [[nodiscard]] std::string percent(double fraction);

@@ -100,15 +100,16 @@ void report_range(const CommonOptions& common, const BakeRun& run, const Partial
     const BakeStatistics statistics = bake_statistics(light, run.settings.target_error);
     Json json{{"output", run.output},
               {"range", {part.range.begin, part.range.end}},
+              {"step", part.range.step},
               {"probes", part.range.count()},
               {"all_probes", probe_count}};
     json.update(work(light.ray_count, run));
     json.update(to_json(statistics));
     json["seconds"] = {{"bake", run.seconds}};
-    common.report(run.output, json,
-                  str_cat(run.output, ": probes ", part.range.begin, "..", part.range.end, " of ",
-                          grouped(probe_count), "\n  bake ", work_text(light.ray_count, run),
-                          "\n  ", to_text(statistics)));
+    common.report(
+        run.output, json,
+        str_cat(run.output, ": probes ", name_of(part.range), " of ", grouped(probe_count),
+                "\n  bake ", work_text(light.ray_count, run), "\n  ", to_text(statistics)));
 }
 
 Json to_json(const BakeStatistics& statistics) {

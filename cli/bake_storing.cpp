@@ -49,7 +49,7 @@ BakeStoring::BakeStoring(const Values& values)
       reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
     if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
     if (*range_setting_ != '\0') {
-        range = index_range(values, range_setting_);
+        range = place_range(values, range_setting_);
         range_option_ = values.shown(range_setting_);
     }
     check_extension(values, output_, range.has_value());
@@ -58,10 +58,10 @@ BakeStoring::BakeStoring(const Values& values)
 Result<PlaceRange> BakeStoring::range_of(size_t count) const {
     const auto all = static_cast<uint32_t>(count);
     if (!range) return PlaceRange{0, all};
-    const bool has_end = range->end != IndexRange{}.end;
-    const PlaceRange asked{range->begin, has_end ? range->end : all};
+    const bool has_end = range->end != kLastPlace;
+    const PlaceRange asked{range->begin, has_end ? range->end : all, range->step};
     if (asked.begin <= asked.end && asked.end <= all) return asked;
-    const std::string text = str_cat(asked.begin, "..", has_end ? str_cat(asked.end) : "");
+    const std::string text = has_end ? name_of(asked) : str_cat(asked.begin, "..");
     return Error{ErrorCode::InvalidArgument, range_setting_, text,
                  str_cat(range_option_, ": ", text, " is not within the ", count, " ",
                          range_setting_, " that are baked, 0..", count)};

@@ -19,7 +19,7 @@ namespace tetralight::cli {
 class BakeStoring {
   public:
     /// That of `probes` or `texels`; nothing: all of them.
-    std::optional<IndexRange> range;
+    std::optional<PlaceRange> range;
     std::string progress_file;
 
     /// Throws a `UsageError` if settings do not go together.

@@ -120,12 +120,14 @@ struct Info {
     }
 
     static Json part_json(const PartialBake& part) {
-        return {{"range", {part.range.begin, part.range.end}}, {"is_finished", true}};
+        return {{"range", {part.range.begin, part.range.end}},
+                {"step", part.range.step},
+                {"is_finished", true}};
     }
 
     static std::string part_text(const PartialBake& part, uint32_t probe_count) {
-        return str_cat("part of a bake: probes ", part.range.begin, "..", part.range.end, " of ",
-                       grouped(probe_count), ", finished");
+        return str_cat("part of a bake: probes ", name_of(part.range), " of ", grouped(probe_count),
+                       ", finished");
     }
 
     [[nodiscard]] Status write_wireframe(const ProbeVolumeView& volume) const {

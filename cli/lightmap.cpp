@@ -155,6 +155,7 @@ struct Lightmap {
         report_texels(bake, settings.bake.target_error, light);
         Json json{{"output", output},
                   {"range", {bake.range.begin, bake.range.end}},
+                  {"step", bake.range.step},
                   {"texels", bake.range.count()},
                   {"all_texels", prepared.baked.size()}};
         json.update(light_json(light));

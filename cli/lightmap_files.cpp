@@ -160,7 +160,8 @@ Status show_lightmaps(const std::string& path, const CommonOptions& common) {
         if (!part) return part.error();
         const PlaceRange& range = part->partial.range;
         const size_t count = part->prepared.baked.size();
-        json["part"] = {{"range", {range.begin, range.end}}, {"all_texels", count}};
+        json["part"] = {
+            {"range", {range.begin, range.end}}, {"step", range.step}, {"all_texels", count}};
         text = str_cat(printable(path), ": part of a bake of lightmaps, texels ", name_of(range),
                        " of ", grouped(count), "\n  ", maps.info.texels_per_meter,
                        " texels per metre, pages of ", maps.info.page_size, " x ",

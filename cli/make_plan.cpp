@@ -178,7 +178,8 @@ class Planner {
             command["prepared"] = path;
             command["resume"] = true;
             reuse_earlier(order, command);
-            add_ranges(*estimate, {"probes", "probes"}, command, 0, piece);
+            add_ranges(*estimate, {"probes", "probes", prepared.capture_positions.size()}, command,
+                       0, piece);
         }
         add_parts(piece);
         pieces_.push_back(std::move(piece));
@@ -299,8 +300,8 @@ class Planner {
                 command["cache"] = str_cat("cache/", order.name);
                 add_cache(*estimate, command, piece);
             }
-            add_ranges(*estimate, {"lightmaps", "texels"}, command, prepared.has_cache() ? 1 : 0,
-                       piece);
+            add_ranges(*estimate, {"lightmaps", "texels", prepared.baked.size()}, command,
+                       prepared.has_cache() ? 1 : 0, piece);
         }
         add_parts(piece);
         pieces_.push_back(std::move(piece));
@@ -311,7 +312,7 @@ class Planner {
     void add_cache(const RayEstimate& estimate, Json command, Piece& piece) const {
         command["texels"] = "0..1";
         command["output"] = part_of(piece.result, kCachePart, ".part");
-        const double rays = kCacheShare * estimate.sum();
+        const double rays = kCacheShare * estimate.rays;
         add_task(str_cat(piece.result.scene, ": radiance cache"), rays, estimate.rays_per_second,
                  command, 0, piece);
     }
@@ -420,19 +421,20 @@ class Planner {
     struct Places {
         const char* kind;
         const char* setting;
+        size_t count;
     };
 
     void add_ranges(const RayEstimate& estimate, const Places& places, const Json& command,
                     size_t phase, Piece& piece) const {
-        const double seconds = estimate.sum() / std::max(estimate.rays_per_second, 1.0);
+        const double seconds = estimate.rays / std::max(estimate.rays_per_second, 1.0);
         const size_t by_time =
             static_cast<size_t>(std::min(std::ceil(seconds / settings_.task_seconds), 1e5));
         const size_t count = settings_.task_count > 0 ? settings_.task_count : by_time;
-        const auto ranges = cut_ranges(estimate.rays, count);
+        const auto ranges = spread_ranges(places.count, count);
         for (size_t i = 0; i < ranges.size(); ++i) {
             const PlaceRange& range = ranges[i];
-            double rays = 0.0;
-            for (uint32_t k = range.begin; k < range.end; ++k) rays += estimate.rays[k];
+            const double rays =
+                estimate.rays * range.count() / std::max(static_cast<double>(places.count), 1.0);
             Json task = command;
             task[places.setting] = name_of(range);
             task["output"] = part_of(piece.result, task_digits(i), ".part");

@@ -318,11 +318,13 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
         return status.error();
     const BakeSettings& settings = prepared.settings.bake;
     BakePlaces places = prepared.places();
-    places.positions = places.positions.subspan(range.begin, range.count());
-    places.surfaces.texels = places.surfaces.texels.subspan(range.begin, range.count());
-    std::span<const OcclusionLights> occlusion_lights = prepared.occlusion_lights;
-    if (!occlusion_lights.empty())
-        occlusion_lights = occlusion_lights.subspan(range.begin, range.count());
+    const auto positions = take(places.positions, range);
+    const auto texels = take(places.surfaces.texels, range);
+    places.positions = positions;
+    places.surfaces.texels = texels;
+    std::vector<OcclusionLights> occlusion_lights;
+    if (!prepared.occlusion_lights.empty())
+        occlusion_lights = take(std::span(prepared.occlusion_lights), range);
     TexelBake bake;
     bake.range = range;
     bake.accumulators.resize(range.count());
@@ -330,10 +332,7 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
     for (const TexelSurfaces::Texel& texel : places.surfaces.texels)
         bake.normals.push_back(texel.normal);
     if (!prepared.mapped_normals.empty()) {
-        const auto mapped =
-            std::span(prepared.mapped_normals)
-                .subspan(kMappedNormals * range.begin, kMappedNormals * range.count());
-        bake.mapped_normals.assign(mapped.begin(), mapped.end());
+        bake.mapped_normals = take(std::span(prepared.mapped_normals), range, kMappedNormals);
     }
     RadianceCache cache;
     BakeHooks hooks{.progress = callback, .preview_seconds = preview.seconds};

@@ -19,9 +19,10 @@ struct UnknownProbes {
     UnknownProbes(const PreparedBake& prepared, const PlaceRange& range) {
         const auto is_reused = prepared.reused.flags(prepared.capture_positions.size());
         const auto& lights = prepared.volume.occlusion_lights;
-        for (uint32_t probe = range.begin; probe < range.end; ++probe) {
+        for (uint32_t i = 0; i < range.count(); ++i) {
+            const uint32_t probe = range[i];
             if (is_reused[probe]) continue;
-            indices.push_back(probe - range.begin);
+            indices.push_back(i);
             positions.push_back(prepared.capture_positions[probe]);
             if (!lights.empty()) occlusion_lights.push_back(lights[probe]);
         }
@@ -36,7 +37,7 @@ struct UnknownProbes {
                                        const PlaceRange& range) const {
         PartialBake partial{range, std::vector<ProbeAccumulator>(range.count()),
                             std::vector<double>(range.count() * row_size),
-                            slice(prepared.reused, range.begin, range.end)};
+                            prepared.reused.in_range(range)};
         for (size_t i = 0; i < indices.size(); ++i) {
             partial.accumulators[indices[i]] = accumulators[i];
             std::ranges::copy(

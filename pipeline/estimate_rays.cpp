@@ -2,7 +2,6 @@
 #include <tetralight/pipeline/estimate_rays.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include <tetralight/bake/layer_errors.h>
 #include <tetralight/bake/light_plan.h>
@@ -53,10 +52,6 @@ uint64_t expected_samples(const RoundPlan& plan, const ProbeAccumulator& accumul
 
 }  // namespace
 
-double RayEstimate::sum() const {
-    return std::accumulate(rays.begin(), rays.end(), 0.0);
-}
-
 Result<RayEstimate> estimate_rays(const Scene& scene, const BakePlaces& places,
                                   const BakeSettings& settings,
                                   std::span<const OcclusionLights> occlusion_lights,
@@ -77,7 +72,7 @@ Result<RayEstimate> estimate_rays(const Scene& scene, const BakePlaces& places,
     const double seconds = watch.seconds();
 
     const RoundPlan plan(settings, places.measure());
-    std::vector<double> expected;
+    double expected = 0.0;
     uint64_t traced = 0;
     for (size_t i = 0; i < indices.size(); ++i) {
         const ProbeAccumulator& accumulator = accumulators[i];
@@ -85,38 +80,14 @@ Result<RayEstimate> estimate_rays(const Scene& scene, const BakePlaces& places,
         const std::vector<float> errors =
             plan.has_layer_target() ? layer_errors(layout, accumulator, row) : std::vector<float>{};
         const float worst = errors.empty() ? 0.0f : *std::ranges::max_element(errors);
-        expected.push_back(static_cast<double>(expected_samples(plan, accumulator, worst)) *
-                           static_cast<double>(accumulator.ray_count) /
-                           static_cast<double>(accumulator.sample_count));
+        expected += static_cast<double>(expected_samples(plan, accumulator, worst)) *
+                    static_cast<double>(accumulator.ray_count) /
+                    static_cast<double>(accumulator.sample_count);
         traced += accumulator.ray_count;
     }
-    RayEstimate estimate;
-    estimate.rays_per_second = static_cast<double>(traced) / std::max(seconds, 1e-9);
-    const size_t count = places.positions.size();
-    for (size_t i = 0; i < count; ++i)
-        estimate.rays.push_back(expected[i * indices.size() / count]);
-    return estimate;
-}
-
-std::vector<PlaceRange> cut_ranges(std::span<const double> costs, size_t count) {
-    const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
-    const auto all = static_cast<uint32_t>(costs.size());
-    count = std::clamp<size_t>(count, 1, std::max<size_t>(costs.size(), 1));
-    std::vector<PlaceRange> ranges;
-    double before = 0.0;
-    uint32_t place = 0;
-    for (size_t i = 0; i < count; ++i) {
-        PlaceRange range{place, place};
-        // Enough places are left for the ranges that follow.
-        const auto last = static_cast<uint32_t>(all - std::min<size_t>(all, count - 1 - i));
-        const double end = sum * static_cast<double>(i + 1) / static_cast<double>(count);
-        while (place < last && (place == range.begin || before + 0.5 * costs[place] < end))
-            before += costs[place++];
-        if (i + 1 == count) place = all;
-        range.end = place;
-        ranges.push_back(range);
-    }
-    return ranges;
+    const double share =
+        static_cast<double>(places.positions.size()) / static_cast<double>(indices.size());
+    return RayEstimate{share * expected, static_cast<double>(traced) / std::max(seconds, 1e-9)};
 }
 
 }  // namespace tetralight

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
@@ -36,7 +37,7 @@ void remove_ringing(const MergedProbes& merged, const DeringSettings& settings,
     if (is_any || !volume.transfer.empty()) volume.dering = std::move(marks);
 }
 
-/// Changes baked light as settings and adjustment volumes ask, then rounds it to halves.
+/// Changes baked light as settings and adjustment volumes ask.
 void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport& report) {
     const BakeVolumeSettings& settings = prepared.settings;
     if (settings.health.invalid == InvalidProbes::Dilate) {
@@ -48,14 +49,13 @@ void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport&
     override_probes(prepared.overrides, volume);
     remove_ringing(prepared.merged, settings.dering, volume);
     copy_reused(prepared.reused, volume);
-    make_compact_probes(volume);
-    sum_layers(volume);
 }
 
 }  // namespace
 
 BakeFinisher::BakeFinisher(PreparedBake prepared) : prepared_(std::move(prepared)) {
     const size_t count = prepared_.volume.positions.size();
+    prepared_.capture_positions = std::vector<glm::dvec3>();  // of the bake alone, and large
     prepared_.volume.irradiance.resize(count);
     prepared_.volume.validity.resize(count);
     light_.standard_error.resize(count);
@@ -63,27 +63,27 @@ BakeFinisher::BakeFinisher(PreparedBake prepared) : prepared_(std::move(prepared
     light_.sample_count.resize(count);
 }
 
-void BakeFinisher::add(uint32_t first, std::span<const ProbeAccumulator> accumulators,
+void BakeFinisher::add(const PlaceRange& range, std::span<const ProbeAccumulator> accumulators,
                        std::span<const double> split_rows) {
     ProbeVolume& volume = prepared_.volume;
-    TETRALIGHT_ASSERT(first + accumulators.size() <= volume.positions.size(), "probes of the bake");
-    const BakedProbes range = make_baked_probes(accumulators);
-    const auto put = [first](const auto& values, auto& all) {
-        std::ranges::copy(values, all.begin() + static_cast<ptrdiff_t>(first));
+    TETRALIGHT_ASSERT(range.end <= volume.positions.size(), "probes of the bake");
+    const BakedProbes baked = make_baked_probes(accumulators);
+    const auto add_all = [&range](const auto& values, auto& all) {
+        put(std::span(values), range, std::span(all));
     };
     for (size_t i = 0; i < accumulators.size(); ++i)
-        volume.irradiance[first + i] = irradiance_from_radiance(range.radiance[i]);
-    put(range.validity, volume.validity);
-    put(range.standard_error, light_.standard_error);
-    put(range.sampling_error, light_.sampling_error);
-    put(range.sample_count, light_.sample_count);
-    light_.ray_count += range.ray_count;
-    store_split(first, accumulators, split_rows, volume);
+        volume.irradiance[range[i]] = irradiance_from_radiance(baked.radiance[i]);
+    add_all(baked.validity, volume.validity);
+    add_all(baked.standard_error, light_.standard_error);
+    add_all(baked.sampling_error, light_.sampling_error);
+    add_all(baked.sample_count, light_.sample_count);
+    light_.ray_count += baked.ray_count;
+    store_split(range, accumulators, split_rows, volume);
     added_count_ += accumulators.size();
 }
 
 void BakeFinisher::add(const PartialBake& partial) {
-    add(partial.range.begin, partial.accumulators, partial.split_rows);
+    add(partial.range, partial.accumulators, partial.split_rows);
     prepared_.reused.append(partial.reused);
 }
 
@@ -105,13 +105,17 @@ BakedVolume BakeFinisher::finish() && {
     report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());
     add_target_warning(report.statistics, target_error, count, report.warnings);
     finish_light(prepared_, volume, report);
+    prepared_ = PreparedBake();  // compact probes need memory of their own
+    light_ = BakedProbes();
+    make_compact_probes(volume);
+    sum_layers(volume);
     return {std::move(volume), std::move(report)};
 }
 
 BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeAccumulator> accumulators,
                         std::span<const double> split_rows) {
     BakeFinisher bake(std::move(prepared));
-    bake.add(0, accumulators, split_rows);
+    bake.add({0, static_cast<uint32_t>(accumulators.size())}, accumulators, split_rows);
     return std::move(bake).finish();
 }
 

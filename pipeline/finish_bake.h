@@ -17,13 +17,12 @@ class BakeFinisher {
   public:
     explicit BakeFinisher(PreparedBake prepared);
 
-    /// Takes the light of probes `first`, `first` + 1, ... and, if light was split, a row for each
-    /// of them. Precondition: they are probes of the bake, and none was added before.
-    void add(uint32_t first, std::span<const ProbeAccumulator> accumulators,
+    /// Takes the light of a range and, if light was split, a row for each of its probes.
+    /// Precondition: they are probes of the bake, and none was added before.
+    void add(const PlaceRange& range, std::span<const ProbeAccumulator> accumulators,
              std::span<const double> split_rows);
 
-    /// The same with the light that the range reuses. Precondition: earlier ranges have smaller
-    /// indices.
+    /// The same with the light that the range reuses.
     void add(const PartialBake& partial);
 
     /// What is being finished; its volume has the light so far.

@@ -86,9 +86,13 @@ Result<Parts<Part>> read_parts(const std::vector<std::string>& paths,
     return parts;
 }
 
+/// Puts values of a part, the same number of each texel, among those of all `count` texels.
 template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-    all.insert(all.end(), more.begin(), more.end());
+void add(const TexelBake& part, const std::vector<T>& values, size_t count, std::vector<T>& all) {
+    if (values.empty()) return;
+    const size_t each = values.size() / part.range.count();
+    all.resize(each * count);
+    put(std::span(values), part.range, std::span(all), each);
 }
 
 /// What the volume of a part keeps of the bake's report.
@@ -148,10 +152,10 @@ Result<BakedLightmaps> merge_lightmap_parts(const std::vector<std::string>& path
 
     TexelBake bake;
     for (const TexelBake& partial : parts->partials) {
-        append(bake.accumulators, partial.accumulators);
-        append(bake.rows, partial.rows);
-        append(bake.normals, partial.normals);
-        append(bake.mapped_normals, partial.mapped_normals);
+        add(partial, partial.accumulators, prepared.baked.size(), bake.accumulators);
+        add(partial, partial.rows, prepared.baked.size(), bake.rows);
+        add(partial, partial.normals, prepared.baked.size(), bake.normals);
+        add(partial, partial.mapped_normals, prepared.baked.size(), bake.mapped_normals);
     }
     prepared.settings.bake.thread_count = thread_count;
     return finish_lightmaps(std::move(prepared), bake);

@@ -33,9 +33,9 @@ Status check_rows(const PartSums& sums, const AllPlaces& all) {
     }
     for (size_t i = 0; i < sums.rows.size(); ++i) {
         if (std::isfinite(sums.rows[i])) continue;
-        return section_error("split_rows",
-                             str_cat("row of ", all.name, " ", sums.range.begin + i / sums.row_size,
-                                     " is not finite"));
+        return section_error(
+            "split_rows",
+            str_cat("row of ", all.name, " ", sums.range[i / sums.row_size], " is not finite"));
     }
     return Ok{};
 }
@@ -50,6 +50,7 @@ PartInfo::PartInfo(uint64_t bake_key, const PlaceRange& range, const BakeSetting
       time_budget_seconds(settings.time_budget_seconds),
       max_sample_count(settings.max_sample_count),
       sample_count(settings.sample_count),
+      step(range.step),
       target_layer_error(static_cast<float>(settings.target_layer_error)) {}
 
 BakeSettings PartInfo::bake_settings() const {
@@ -71,7 +72,7 @@ Result<PartInfo> PartSections::info(std::string_view writer) const {
     if (infos.size() != 1) return not_a_part(writer);
     const PartInfo& info = infos[0];
     if (auto status = check_version(table_); !status) return status.error();
-    if (info.is_finished == 0) return Error{ErrorCode::InvalidArgument, "is not finished"};
+    if (info.step == 0) return Error{ErrorCode::InvalidArgument, "is not finished"};
     if (auto status = RoundPlan::check(info.bake_settings()); !status) return status.error();
     return info;
 }
@@ -98,11 +99,11 @@ Status check_sums(const PartSums& sums, const AllPlaces& all, const BakeSettings
     }
     if (auto status = check_rows(sums, all); !status) return status;
     for (size_t i = 0; i < accumulators.size(); ++i) {
-        const bool is_empty = !is_reused.empty() && is_reused[range.begin + i];
+        const bool is_empty = !is_reused.empty() && is_reused[range[i]];
         const bool has_rounds = accumulators[i].round_count > 0;
         if (has_rounds != is_empty && is_possible(accumulators[i], plan)) continue;
-        return section_error(
-            "tallies", str_cat("element of ", all.name, " ", range.begin + i, " is out of range"));
+        return section_error("tallies",
+                             str_cat("element of ", all.name, " ", range[i], " is out of range"));
     }
     return Ok{};
 }

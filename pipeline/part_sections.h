@@ -32,7 +32,7 @@ struct PartInfo {
     double time_budget_seconds = 0.0;
     uint64_t max_sample_count = 0;
     uint32_t sample_count = 0;
-    uint32_t is_finished = 1;  ///< earlier versions wrote unfinished parts
+    uint32_t step = 1;  ///< 0: an unfinished part of an earlier version
     // Of probes only.
     InvalidProbes invalid_probes = InvalidProbes::LeaveOut;
     DeringWindow dering_window = DeringWindow::Mildest;
@@ -45,7 +45,7 @@ struct PartInfo {
     /// Those of probes have their defaults.
     PartInfo(uint64_t key, const PlaceRange& range, const BakeSettings& settings);
 
-    [[nodiscard]] PlaceRange range() const { return {begin, end}; }
+    [[nodiscard]] PlaceRange range() const { return {begin, end, step}; }
 
     /// The settings that it keeps.
     [[nodiscard]] BakeSettings bake_settings() const;

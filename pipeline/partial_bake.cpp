@@ -96,12 +96,11 @@ Status check_overrides(const PreparedBake& prepared) {
 /// Reads the light that the part reuses. Its probes have to be in the range, in order.
 Status read_reused(const PartSections& sections, const PreparedBake& prepared,
                    PartialBake& partial) {
-    const auto& [begin, end] = partial.range;
     ReusedLight& reused = partial.reused;
     reused.probes = sections.read<uint32_t>("reused_probes");
     for (size_t i = 0; i < reused.probes.size(); ++i) {
-        const uint32_t least = i == 0 ? begin : reused.probes[i - 1] + 1;
-        if (reused.probes[i] >= least && reused.probes[i] < end) continue;
+        const bool is_in_order = i == 0 || reused.probes[i - 1] < reused.probes[i];
+        if (is_in_order && partial.range.contains(reused.probes[i])) continue;
         return section_error("reused_probes", str_cat("element ", i, " is out of range"));
     }
     Status status = Ok{};
@@ -317,7 +316,10 @@ Result<PlaceRange> light_part_range(const std::string& path, const PreparedBake&
     if (!file) return file.error();
     const auto info = light_part_info(*file, prepared);
     if (!info) return info.error().in(path);
-    return info->range();
+    const PlaceRange range = info->range();
+    if (auto status = check_part_range(range, probes_of(prepared)); !status)
+        return status.error().in(path);
+    return range;
 }
 
 Result<PartialBake> read_light_part(const std::string& path, const PreparedBake& prepared) {

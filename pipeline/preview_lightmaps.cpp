@@ -68,7 +68,7 @@ class PreviewWriter {
             const ProbeAccumulator& sums = bake_.accumulators[i];
             if (sums.sample_count == 0) continue;
             const auto count = static_cast<double>(sums.sample_count);
-            light_[prepared_.baked[bake_.range.begin + i]] =
+            light_[prepared_.baked[bake_.range[i]]] =
                 irradiance_on_normal(sums.radiance_sum[2] / count);
         }
     }

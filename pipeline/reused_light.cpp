@@ -67,23 +67,26 @@ ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> o
     return light;
 }
 
-ReusedLight slice(const ReusedLight& light, uint32_t begin, uint32_t end) {
-    const auto first = std::ranges::lower_bound(light.probes, begin) - light.probes.begin();
-    const auto last = std::ranges::lower_bound(light.probes, end) - light.probes.begin();
+ReusedLight ReusedLight::in_range(const PlaceRange& range) const {
+    std::vector<size_t> kept;
+    for (size_t i = 0; i < probes.size(); ++i)
+        if (range.contains(probes[i])) kept.push_back(i);
     ReusedLight part;
-    const auto cut = [&](const auto& from, auto& to) {
-        const auto each =
-            light.probes.empty() ? 0 : static_cast<ptrdiff_t>(from.size() / light.probes.size());
-        to.assign(from.begin() + first * each, from.begin() + last * each);
+    const auto keep = [&](const auto& from, auto& to) {
+        const size_t each = probes.empty() ? 0 : from.size() / probes.size();
+        for (const size_t i : kept) {
+            const auto first = from.begin() + static_cast<ptrdiff_t>(i * each);
+            to.insert(to.end(), first, first + static_cast<ptrdiff_t>(each));
+        }
     };
-    cut(light.probes, part.probes);
-    cut(light.standard_error, part.standard_error);
-    cut(light.validity, part.validity);
-    cut(light.irradiance, part.irradiance);
-    cut(light.occlusion, part.occlusion);
-    cut(light.transfer, part.transfer);
-    cut(light.layer_irradiance, part.layer_irradiance);
-    cut(light.layer_errors, part.layer_errors);
+    keep(probes, part.probes);
+    keep(standard_error, part.standard_error);
+    keep(validity, part.validity);
+    keep(irradiance, part.irradiance);
+    keep(occlusion, part.occlusion);
+    keep(transfer, part.transfer);
+    keep(layer_irradiance, part.layer_irradiance);
+    keep(layer_errors, part.layer_errors);
     return part;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tetralight/bake/bake_probes.h>
+#include <tetralight/pipeline/place_range.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
@@ -14,7 +15,7 @@ namespace tetralight {
 /// Light of probes that is copied from the volume of an earlier bake, as the end of that bake left
 /// it. Arrays have one element for each of `probes`; those that the volume does not have are empty.
 struct ReusedLight {
-    /// Indices in the new volume, ascending.
+    /// Indices in the new volume.
     std::vector<uint32_t> probes;
     std::vector<float> standard_error;
     std::vector<float> validity;
@@ -28,7 +29,10 @@ struct ReusedLight {
     /// One for each probe of a volume: true if its light is reused.
     [[nodiscard]] std::vector<bool> flags(size_t probe_count) const;
 
-    /// Appends the light of other probes, which have larger indices.
+    /// That of the probes of a range.
+    [[nodiscard]] ReusedLight in_range(const PlaceRange& range) const;
+
+    /// Appends the light of other probes.
     void append(const ReusedLight& other);
 
     bool operator==(const ReusedLight&) const = default;
@@ -51,9 +55,6 @@ void for_each_array(Light& light, const ProbeVolume& volume, Visit visit) {
 /// index of the same probe in `old`, or kNoIndex.
 [[nodiscard]] ReusedLight reused_light(const ProbeVolumeView& old,
                                        std::span<const uint32_t> old_probes);
-
-/// The reused light of probes [begin, end).
-[[nodiscard]] ReusedLight slice(const ReusedLight& light, uint32_t begin, uint32_t end);
 
 /// Writes reused light over the light of a volume. It is final: steps that change light of single
 /// probes (adjustments, dering) are done before, and this is called again after them.

@@ -70,7 +70,7 @@ LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept {
     return layout;
 }
 
-void store_split(size_t first, std::span<const ProbeAccumulator> accumulators,
+void store_split(const PlaceRange& range, std::span<const ProbeAccumulator> accumulators,
                  std::span<const double> rows, ProbeVolume& volume) {
     const LightGroupLayout layout = split_layout(volume.view());
     TETRALIGHT_ASSERT(rows.size() == layout.size() * accumulators.size(), "one row a probe");
@@ -80,7 +80,7 @@ void store_split(size_t first, std::span<const ProbeAccumulator> accumulators,
     if (layout.has_transfer) volume.transfer.resize(count);
     if (layout.has_occlusion) volume.occlusion.resize(count);
     for (size_t i = 0; i < accumulators.size(); ++i) {
-        const size_t probe = first + i;
+        const size_t probe = range[i];
         const auto row = rows.subspan(i * layout.size(), layout.size());
         // A probe without samples (its light is reused) keeps zeros here.
         const auto directions =

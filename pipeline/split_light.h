@@ -7,6 +7,7 @@
 #include <tetralight/bake/light_plan.h>
 #include <tetralight/bake/probe_accumulator.h>
 #include <tetralight/pipeline/dering_probes.h>
+#include <tetralight/pipeline/place_range.h>
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -18,10 +19,10 @@ namespace tetralight {
 /// occlusion if it has occlusion lights.
 [[nodiscard]] LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept;
 
-/// Fills layers (but for "rest"), the errors of all layers, transfer and occlusion of probes
-/// `first`, `first` + 1, ... from `rows`, one an accumulator.
+/// Fills layers (but for "rest"), the errors of all layers, transfer and occlusion of the probes of
+/// a range from `rows`, one an accumulator.
 /// Precondition: rows of `split_layout(volume)`.
-void store_split(size_t first, std::span<const ProbeAccumulator> accumulators,
+void store_split(const PlaceRange& range, std::span<const ProbeAccumulator> accumulators,
                  std::span<const double> rows, ProbeVolume& volume);
 
 /// Fills layer "rest", if there is one, with the total minus all other layers: the sum of all

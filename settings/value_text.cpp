@@ -78,16 +78,19 @@ Result<Json> seconds_from_text(std::string_view text) {
 
 Result<Json> range_from_text(std::string_view text) {
     constexpr uint64_t kMost = UINT32_MAX;
-    const Error error = not_a(text, "a range of one or more, such as 0..100 or 100..");
+    const Error error =
+        not_a(text, "a range of one or more, such as 0..100, 100.., or 3..100x8 for every eighth");
     const size_t dots = text.find("..");
     if (dots == std::string_view::npos) return error;
+    const size_t x = text.find('x', dots);
     const auto begin = parse_integer(text.substr(0, dots));
-    const std::string_view rest = text.substr(dots + 2);
-    if (!begin || *begin >= kMost) return error;
-    if (rest.empty()) return Json::array({*begin});
-    const auto end = parse_integer(rest);
+    const auto step = x == std::string_view::npos ? 1 : parse_integer(text.substr(x + 1));
+    if (!begin || *begin >= kMost || !step || *step == 0 || *step > kMost) return error;
+    const std::string_view end_text =
+        text.substr(dots + 2, x == std::string_view::npos ? x : x - dots - 2);
+    const auto end = end_text.empty() ? kMost : parse_integer(end_text);
     if (!end || *end <= *begin || *end > kMost) return error;
-    return Json::array({*begin, *end});
+    return Json::array({*begin, *end, *step});
 }
 
 Result<Json> choice_from_text(const Setting& setting, std::string_view text) {

@@ -142,7 +142,7 @@ TEST_F(Resume, ProgressReplacesNoOtherFileOfTheBake) {
 TEST_F(Resume, InfoSaysTheRangeOfAPart) {
     succeed({"bake", kCourtyard, "-o", "few.part", "-s", "16", "--probes", "3..5"});
     const Json part = run_json({"info", "few.part"})["part"];
-    EXPECT_EQ(part, (Json{{"range", {3, 5}}, {"is_finished", true}}));
+    EXPECT_EQ(part, (Json{{"range", {3, 5}}, {"step", 1}, {"is_finished", true}}));
     EXPECT_TRUE(contains(succeed({"info", "few.part"}).out,
                          "part of a bake: probes 3..5 of 255, finished"));
 }

@@ -58,6 +58,14 @@ TEST_F(LightParts, GiveTheBytesOfOneBakeInAnyOrder) {
     expect_whole(prepared, {c, a, b});
 }
 
+TEST_F(LightParts, OfEveryFewProbesGiveTheBytesOfOneBake) {
+    const std::string prepared = plan();
+    std::vector<std::string> parts;
+    for (const PlaceRange& range : spread_ranges(kProbeCount, 4))
+        parts.push_back(bake_light(prepared, name_of(range), range));
+    expect_whole(prepared, parts);
+}
+
 TEST_F(LightParts, WithLayersOcclusionAndTargetsToo) {
     lighting.mixed_lighting = MixedLighting::Shadowmask;
     lighting.layers = {"sky", "transfer"};
@@ -75,7 +83,7 @@ TEST_F(LightParts, WithReusedLightToo) {
     groups[0].positions[3].x += 0.01;
     const std::string prepared_path = plan();
     std::vector<std::string> parts;
-    for (const PlaceRange range : {PlaceRange{0, 17}, PlaceRange{17, kProbeCount}}) {
+    for (const PlaceRange& range : spread_ranges(kProbeCount, 2)) {
         auto prepared = read(prepared_path);
         ASSERT_TRUE(prepared);
         ASSERT_TRUE(reuse_probes(old->volume.view(), *prepared));

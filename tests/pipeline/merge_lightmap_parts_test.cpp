@@ -100,23 +100,25 @@ TEST_F(MergeLightmapParts, OfAnyRangesThreadsAndInterruptions) {
     uint64_t earlier_ray_count = 0;
     for (int run = 0; run < 8; ++run) {
         std::vector<std::string> paths;
-        for (uint32_t begin = 0; begin < count;) {
-            const uint32_t end =
-                std::min(count, begin + 1 + static_cast<uint32_t>(random()) % count);
+        std::vector<PlaceRange> ranges = spread_ranges(count, 1 + random() % 4);
+        if (run % 2 == 0) {
+            const auto middle = 1 + static_cast<uint32_t>(random()) % (count - 1);
+            ranges = {{0, middle}, {middle, count}};
+        }
+        for (const PlaceRange& range : ranges) {
             settings.bake.thread_count = 1 + static_cast<uint32_t>(random()) % 4;
             const PreparedLightmaps prepared = prepare();
             auto store = BakeStore::open(folder.path("store" + std::to_string(run / 2)));
             ASSERT_TRUE(store);
             const BakeStorage storage{.sources = {&*store}, .target = &*store, .save_seconds = 0.0};
             size_t left = 1 + random() % 3;
-            static_cast<void>(bake_texel_range(scene, prepared, {begin, end}, storage,
+            static_cast<void>(bake_texel_range(scene, prepared, range, storage,
                                                [&](const BakeProgress&) { return --left > 0; }));
-            const auto baked = bake_texel_range(scene, prepared, {begin, end}, storage);
+            const auto baked = bake_texel_range(scene, prepared, range, storage);
             ASSERT_TRUE(baked) << error_text(baked.error());
             earlier_ray_count += baked->stored.earlier_ray_count;
             paths.push_back(folder.path("part" + std::to_string(paths.size())));
             ASSERT_TRUE(write_lightmap_part(paths.back(), prepared, *baked));
-            begin = end;
         }
         std::ranges::shuffle(paths, random);
         const auto merged = merge_lightmap_parts(paths, 1 + static_cast<uint32_t>(run) % 3);
@@ -152,8 +154,8 @@ TEST_F(MergeLightmapParts, NamesWhatOverlapsAndWhatIsMissing) {
     const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {11, count}),
                       c = bake_part("c", {20, 30});
     EXPECT_EQ(error_of({a, b}), b + ": texels 11" + end + " overlap texels 0..12 of " + a);
-    EXPECT_EQ(error_of({a, c}),
-              "texels 12..20 of " + all + " are in no part; the next, 20..30, are in " + c);
+    EXPECT_EQ(error_of({a, c}), "texels 12..20 and " + std::to_string(count - 30) + " others of " +
+                                    all + " are in no part; the next, 20..30, are in " + c);
     EXPECT_EQ(error_of({a}),
               "texels 12" + end + " of " + all + " are in no part; the last, 0..12, are in " + a);
 }

@@ -27,6 +27,10 @@ TEST_F(MergeParts, GivesTheBytesOfOneBakeInAnyOrderOfTheParts) {
                       c = bake_part("c", {13, kProbeCount});
     expect_whole({a, b, c});
     expect_whole({c, a, b});
+    const std::string d = bake_part("d", {12, kProbeCount, 3}),
+                      e = bake_part("e", {13, kProbeCount, 3}),
+                      f = bake_part("f", {14, kProbeCount, 3});
+    expect_whole({f, a, d, e});
 }
 
 TEST_F(MergeParts, OfAdaptiveBakesToo) {
@@ -58,8 +62,9 @@ TEST_F(MergeParts, NamesWhatOverlaps) {
 TEST_F(MergeParts, NamesWhatIsMissing) {
     const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {20, 30});
     EXPECT_EQ(error_of({a, b}),
-              "probes 12..20 of 35 are in no part; the next, 20..30, are in " + b);
-    EXPECT_EQ(error_of({b}), "probes 0..20 of 35 are in no part; the next, 20..30, are in " + b);
+              "probes 12..20 and 5 others of 35 are in no part; the next, 20..30, are in " + b);
+    EXPECT_EQ(error_of({b}),
+              "probes 0..20 and 5 others of 35 are in no part; the next, 20..30, are in " + b);
     EXPECT_EQ(error_of({a}), "probes 12..35 of 35 are in no part; the last, 0..12, are in " + a);
 }
 

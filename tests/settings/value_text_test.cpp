@@ -40,10 +40,13 @@ TEST(ValueText, ReadsTimes) {
 }
 
 TEST(ValueText, ReadsRangesOfElements) {
-    EXPECT_EQ(*value_from_text(kRange, "100..200"), Json::array({100, 200}));
-    EXPECT_EQ(*value_from_text(kRange, "100.."), Json::array({100}));
+    EXPECT_EQ(*value_from_text(kRange, "100..200"), Json::array({100, 200, 1}));
+    EXPECT_EQ(*value_from_text(kRange, "100.."), Json::array({100, 4294967295, 1}));
+    EXPECT_EQ(*value_from_text(kRange, "3..200x8"), Json::array({3, 200, 8}));
+    EXPECT_EQ(*value_from_text(kRange, "3..x8"), Json::array({3, 4294967295, 8}));
     for (const char* wrong :
-         {"..3", "3", "3..3", "4..3", "a..b", "1...2", "-1..2", "0..4294967296"}) {
+         {"..3", "3", "3..3", "4..3", "a..b", "1...2", "-1..2", "0..4294967296", "0..9x", "0..9x0",
+          "0..9x-1", "0x2", "0..x", "0..9x4294967296", "0..9x2x2"}) {
         EXPECT_FALSE(value_from_text(kRange, wrong)) << wrong;
     }
 }
