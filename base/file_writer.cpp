@@ -162,8 +162,7 @@ Status FileWriter::compare_with(FilePieces expected) const {
             const auto wanted = rest.first(std::min(rest.size(), kBlockSize));
             const auto count = read_up_to(file_, std::span(block).first(wanted.size()));
             if (!count) return system_error(path_, "read");
-            if (*count != wanted.size() ||
-                std::memcmp(wanted.data(), block.data(), *count) != 0) {
+            if (*count != wanted.size() || std::memcmp(wanted.data(), block.data(), *count) != 0) {
                 return differs;
             }
             rest = rest.subspan(wanted.size());

@@ -143,10 +143,13 @@ JobResult read_slurm_result(const Job& job, const ProcessResult& process) {
     if (result.end == End::Cancelled) {
         // A job that is left is ended before the next one of its name.
         (void)end_slurm_jobs(job.slurm_name);
-    } else if (result.end == End::Crashed) {
+    } else if (result.end == End::Crashed || result.report.empty()) {
+        // Of a machine that failed, srun may say that all is well.
         result.end = End::Failed;
+        const std::string why =
+            process.succeeded() ? "has no answer of its program" : process.failure();
         result.error = {ErrorCode::Unavailable,
-                        str_cat(kSrun, " ", process.failure(), ": ", process.last_error_line())};
+                        str_cat(kSrun, " ", why, ": ", process.last_error_line())};
     } else if (result.error.code == ErrorCode::Cancelled) {
         result.error.code = ErrorCode::Unavailable;
     }

@@ -382,7 +382,9 @@ TEST_F(Bake, SaysHowAmountsAreWritten) {
         EXPECT_TRUE(contains(message({"--time-budget", time}), "such as 30s, 5m or 2h")) << time;
     }
     for (const char* range : {"0", "..", "..5", "5..5", "6..5", "-1..5", "0..5x", "0...5"}) {
-        EXPECT_TRUE(contains(message({"--probes", range}), "such as 0..100, 100.., or 3..100x8 for every eighth")) << range;
+        EXPECT_TRUE(contains(message({"--probes", range}),
+                             "such as 0..100, 100.., or 3..100x8 for every eighth"))
+            << range;
     }
     EXPECT_TRUE(contains(message({"--max-samples", "4096"}), "--target-error or --time-budget"));
 }

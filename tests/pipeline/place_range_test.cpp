@@ -49,7 +49,8 @@ TEST(SpreadRanges, AreAllPlacesOnceEach) {
             EXPECT_EQ(ranges.size(), std::min(places, count));
             std::multiset<uint32_t> seen;
             for (const PlaceRange& range : ranges) {
-                EXPECT_NEAR(range.count(), static_cast<double>(places) / static_cast<double>(ranges.size()), 1.0);
+                EXPECT_NEAR(range.count(),
+                            static_cast<double>(places) / static_cast<double>(ranges.size()), 1.0);
                 for (uint32_t i = 0; i < range.count(); ++i) seen.insert(range[i]);
             }
             std::vector<uint32_t> all(places);

@@ -88,6 +88,7 @@ class Batches(BakeTest):
 SRUN = """
 for argument in "$@"; do printf '%s\\n' "$argument" >> "$FAKE_SLURM/arguments"; done
 [ "$1" = --version ] && exit 0
+[ -e "$FAKE_SLURM/silent" ] && { rm "$FAKE_SLURM/silent"; echo "srun: error: Node failure on node1" >&2; exit 0; }
 [ -e "$FAKE_SLURM/broken" ] && { rm "$FAKE_SLURM/broken"; echo "srun: error: Unable to allocate" >&2; exit 1; }
 while [ "$1" != -- ]; do shift; done
 shift
@@ -137,10 +138,11 @@ class BakesOnSlurm(BakeTest):
         self.assertEqual(arguments[-2:], ["--job", "-"])
 
     def test_a_failure_of_the_cluster_is_tried_again(self):
-        self.touch("broken")
+        self.touch("broken")  # srun says that it failed
+        self.touch("silent")  # it says that all is well, and nothing was done
         server, bake = self.begin_on_slurm(**QUICK)
         self.assertEqual(server.wait_for(bake)["state"], "done")
-        self.assertEqual(self.lines("arguments").count("--job-name=tetralight-bake-" + bake), 2)
+        self.assertEqual(self.lines("arguments").count("--job-name=tetralight-bake-" + bake), 3)
 
     def test_a_job_that_is_left_is_ended_first(self):
         self.touch("left")
