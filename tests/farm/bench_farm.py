@@ -54,6 +54,7 @@ def bench_tasks(folder, count, tasks):
     cut += sum(tetralight(folder, "task", "here", task) for task in range(tasks))
     cut += tetralight(folder, "collect", "here", "-o", "here_baked")
     report("farm.overhead", cut / one, "of the processor time of one bake", probes=probes, tasks=tasks)
+    report("farm.overhead_per_task", (cut - one) / tasks, "seconds of a processor", one_bake=round(one, 2))
     why = slurm_cluster.missing()
     if why:
         print("farm.bytes is left out: " + why, file=sys.stderr)
