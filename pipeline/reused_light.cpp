@@ -22,6 +22,19 @@ void scatter(const std::vector<T>& values, std::span<const uint32_t> probes, std
     for (size_t i = 0; i < values.size(); ++i) to[probes[i]] = values[i];
 }
 
+/// Calls visit(array of `from`, the same array of `to`) for all arrays.
+template <class Visit>
+void for_each_pair(const ReusedLight& from, ReusedLight& to, Visit visit) {
+    visit(from.probes, to.probes);
+    visit(from.standard_error, to.standard_error);
+    visit(from.validity, to.validity);
+    visit(from.irradiance, to.irradiance);
+    visit(from.occlusion, to.occlusion);
+    visit(from.transfer, to.transfer);
+    visit(from.layer_irradiance, to.layer_irradiance);
+    visit(from.layer_errors, to.layer_errors);
+}
+
 }  // namespace
 
 std::vector<bool> ReusedLight::flags(size_t probe_count) const {
@@ -31,17 +44,24 @@ std::vector<bool> ReusedLight::flags(size_t probe_count) const {
 }
 
 void ReusedLight::append(const ReusedLight& other) {
-    const auto add = [](auto& to, const auto& from) {
+    for_each_pair(other, *this, [](const auto& from, auto& to) {
         to.insert(to.end(), from.begin(), from.end());
-    };
-    add(probes, other.probes);
-    add(standard_error, other.standard_error);
-    add(validity, other.validity);
-    add(irradiance, other.irradiance);
-    add(occlusion, other.occlusion);
-    add(transfer, other.transfer);
-    add(layer_irradiance, other.layer_irradiance);
-    add(layer_errors, other.layer_errors);
+    });
+}
+
+ReusedLight ReusedLight::in_range(const PlaceRange& range) const {
+    std::vector<size_t> kept;
+    for (size_t i = 0; i < probes.size(); ++i)
+        if (range.contains(probes[i])) kept.push_back(i);
+    ReusedLight part;
+    for_each_pair(*this, part, [&](const auto& from, auto& to) {
+        const size_t each = probes.empty() ? 0 : from.size() / probes.size();
+        for (const size_t i : kept) {
+            const auto first = from.begin() + static_cast<ptrdiff_t>(i * each);
+            to.insert(to.end(), first, first + static_cast<ptrdiff_t>(each));
+        }
+    });
+    return part;
 }
 
 ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> old_probes) {
@@ -65,29 +85,6 @@ ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> o
     light.occlusion = gather(old.occlusion, from);
     light.transfer = gather(old.transfer, from);
     return light;
-}
-
-ReusedLight ReusedLight::in_range(const PlaceRange& range) const {
-    std::vector<size_t> kept;
-    for (size_t i = 0; i < probes.size(); ++i)
-        if (range.contains(probes[i])) kept.push_back(i);
-    ReusedLight part;
-    const auto keep = [&](const auto& from, auto& to) {
-        const size_t each = probes.empty() ? 0 : from.size() / probes.size();
-        for (const size_t i : kept) {
-            const auto first = from.begin() + static_cast<ptrdiff_t>(i * each);
-            to.insert(to.end(), first, first + static_cast<ptrdiff_t>(each));
-        }
-    };
-    keep(probes, part.probes);
-    keep(standard_error, part.standard_error);
-    keep(validity, part.validity);
-    keep(irradiance, part.irradiance);
-    keep(occlusion, part.occlusion);
-    keep(transfer, part.transfer);
-    keep(layer_irradiance, part.layer_irradiance);
-    keep(layer_errors, part.layer_errors);
-    return part;
 }
 
 void copy_reused(const ReusedLight& light, ProbeVolume& volume) {
