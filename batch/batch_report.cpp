@@ -174,7 +174,7 @@ std::string junit_text(const Json& report) {
 std::string failed_limits(const Json& report) {
     std::string text;
     const auto add = [&](const Json& scene, const std::string& what) {
-        text += str_cat(text.empty() ? "" : "\n", scene["name"].get<std::string>(), ": ", what);
+        text += str_cat(text.empty() ? "" : "; ", scene["name"].get<std::string>(), ": ", what);
     };
     for (const Json& scene : report["scenes"]) {
         if (scene.contains("error")) add(scene, scene["error"].get<std::string>());

@@ -141,8 +141,10 @@ Error BakeStoring::interrupted() {
         return {ErrorCode::Cancelled, "interrupted; nothing was kept"};
     }
     note_checkpoint();
-    return {ErrorCode::Cancelled, str_cat("interrupted; ", target->folder(), " keeps what is done",
-                                          shared_ ? "" : ", --resume goes on with it")};
+    return {ErrorCode::Cancelled,
+            str_cat("interrupted; ", target->folder(), " keeps what is done",
+                    is_resumed_ || shared_ ? "; the same command goes on with it"
+                                           : ", --resume goes on with it")};
 }
 
 void BakeStoring::warn(const StoredBake& baked, const CommonOptions& common) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/json_file.h>
+#include <tetralight/cli/paths.h>
 #include <tetralight/cli/submission.h>
 
 namespace tetralight::cli {
@@ -21,16 +23,20 @@ namespace {
 
 /// `results`: one for each of the plan's, in its order.
 std::vector<BatchScene> batch_scenes(const PlanFile& plan,
-                                     const std::vector<CollectedResult>& results) {
+                                     const std::vector<Result<CollectedResult>>& results) {
     std::vector<BatchScene> scenes;
     for (const PlanScene& scene : plan.scenes) {
         scenes.push_back({scene.name, scene.limits, {}});
         for (size_t i = 0; i < results.size(); ++i) {
             const PlanResult& result = plan.results[i];
-            const CollectedResult& run = results[i];
             if (result.scene != scene.name) continue;
-            scenes.back().files.push_back(
-                {result.kind, result.file, run.bytes, run.seconds, run.report, run.leaks});
+            if (results[i]) {
+                scenes.back().files.push_back({result.kind, result.file, results[i]->bytes,
+                                               results[i]->seconds, results[i]->report,
+                                               results[i]->leaks});
+            } else if (scenes.back().error.empty()) {
+                scenes.back().error = error_json(results[i].error())["message"].get<std::string>();
+            }
         }
     }
     return scenes;
@@ -45,28 +51,29 @@ Status write_report(const fs::path& folder, const Json& report) {
 }  // namespace
 
 Status collect_all(const PlanFile& plan, const std::string& folder, const CommonOptions& common) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-        return Error{ErrorCode::Unavailable, "output", folder,
-                     str_cat(folder, ": cannot be made: ", error.message())};
-    }
-    std::vector<CollectedResult> results;
+    if (auto status = make_folder(folder, "output"); !status) return status;
+    std::vector<Result<CollectedResult>> results;
     std::string text;
+    std::optional<Error> failure;
     for (const PlanResult& result : plan.results) {
-        auto run = collect_result(plan, result, folder, common);
-        if (!run) return run.error();
+        results.push_back(collect_result(plan, result, folder, common));
+        const auto& run = results.back();
+        if (!run && run.error().code == ErrorCode::Cancelled) return run.error();
+        if (!run) {
+            if (!failure) failure = run.error();
+            continue;
+        }
         text += str_cat(
             text.empty() ? "" : "\n", run->output, ": ", run->bytes / 1024, " KiB",
             run->was_done ? ", unchanged" : str_cat(", ", duration(run->seconds), " of tasks"));
-        results.push_back(std::move(*run));
     }
     const Json report = batch_report(batch_scenes(plan, results));
     if (auto status = write_report(folder, report); !status) return status;
     Json json{{"output", folder}};
     json.update(report);
     const bool has_passed = report["passed"].get<bool>();
-    if (has_passed || !common.is_json) common.print(json, text);
+    if (has_passed || (!common.is_json && !text.empty())) common.print(json, text);
+    if (failure) return with_report(*failure, json);
     if (has_passed) return Ok{};
     return with_report(Error{ErrorCode::InvalidArgument, "limits", "", failed_limits(report)},
                        json);

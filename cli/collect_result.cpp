@@ -18,6 +18,12 @@ fs::path collected_path(const PlanResult& result) {
     return fs::path("done") / result.record_name();
 }
 
+/// When a file was written last, in ticks of the file system's clock.
+int64_t written_at(const std::string& path) {
+    std::error_code ignored;
+    return fs::last_write_time(path, ignored).time_since_epoch().count();
+}
+
 /// What was collected before; an empty object if nothing was, or it was changed since.
 Json collected_before(const PlanResult& result, const std::string& output) {
     std::error_code error;
@@ -26,6 +32,7 @@ Json collected_before(const PlanResult& result, const std::string& output) {
     const bool is_same = json.value("key", Json()) == result.key &&
                          json.value("output", Json()) == output &&
                          json.value("bytes", Json()) == fs::file_size(output, error) &&
+                         json.value("written", Json()) == written_at(output) &&
                          json.value("report", Json()).is_object();
     return is_same ? json : Json::object();
 }
@@ -42,12 +49,20 @@ Status join(const PlanResult& result, const std::string& output, const CommonOpt
     Json command = result.command;
     command["output"] = output;
     auto report = run_command(command, common);
-    if (!report) return report.error();
+    if (!report) {
+        Error error = report.error();
+        if (error.code == ErrorCode::Corrupt) {
+            error.message =
+                error.message.suffixed(" (delete a part that is damaged, and run its task again)");
+        }
+        return error.in(str_cat(result.scene, ": ", result.kind));
+    }
     std::error_code ignored;
     collected = {{"key", result.key},
                  {"lamps", result.lamps},
                  {"output", output},
                  {"bytes", fs::file_size(output, ignored)},
+                 {"written", written_at(output)},
                  {"report", std::move(*report)}};
     return write_json(collected_path(result), collected);
 }
@@ -56,7 +71,10 @@ Status measure_leaks(const PlanResult& result, const std::string& output, const 
                      const CommonOptions& common, Json& collected) {
     Json command = check;
     command["volume"] = output;
-    auto report = run_command(command, common);
+    // A relit file has the light of the scene as it is now, but was baked from an earlier one.
+    CommonOptions quiet = common;
+    quiet.is_quiet = common.is_quiet || result.command.value("command", "") == "relight";
+    auto report = run_command(command, quiet);
     if (!report) return report.error();
     collected["leak_check"] = check;
     collected["leaks"] = std::move(*report);
@@ -77,8 +95,14 @@ Result<CollectedResult> collect_result(const PlanFile& plan, const PlanResult& r
             missing.push_back(task);
     }
     if (!missing.empty()) {
-        return tasks_missing(missing, result.tasks.size())
-            .in(str_cat(result.scene, ": ", result.kind));
+        Error error = tasks_missing(missing, result.tasks.size());
+        for (const size_t task : missing) {
+            const std::string damage = damage_of(".", plan, task);
+            if (damage.empty()) continue;
+            error.message = error.message.suffixed("; " + damage);
+            break;
+        }
+        return error.in(str_cat(result.scene, ": ", result.kind));
     }
     const std::string output = (fs::path(folder) / result.file).string();
     Json collected = collected_before(result, output);

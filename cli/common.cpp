@@ -91,9 +91,9 @@ std::string printable(const std::string& text) {
 std::string printable_lines(std::string_view text) {
     std::string lines;
     while (!text.empty()) {
-        const size_t length = std::min(text.find('\n'), text.size());
+        const size_t length = std::min(text.find_first_of("\n\t"), text.size());
         lines += printable(std::string(text.substr(0, length)));
-        if (length < text.size()) lines += '\n';
+        if (length < text.size()) lines += text[length];
         text.remove_prefix(std::min(length + 1, text.size()));
     }
     return lines;

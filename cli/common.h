@@ -52,7 +52,7 @@ class ReportCapture {
 /// Text for a terminal: one line, control characters shown as '?'.
 [[nodiscard]] std::string printable(const std::string& text);
 
-/// The same for each line of a text.
+/// The same for each line of a text; tabs stay.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 /// JSON on one line, or indented. Bytes that are not UTF-8, in a path for example, are replaced.
 [[nodiscard]] std::string dump(const Json& json, int indent = -1);

@@ -220,7 +220,10 @@ Status relight_lightmap_file(const std::string& path, const std::string& output,
     if (auto status = write_lightmap_file(output, maps.view()); !status) return status;
     const std::string layers = layers_text(maps.view());
     common.report(
-        output, {{"output", output}, {"layers", layers_json(maps.view())}},
+        output,
+        {{"output", output},
+         {"standard_error", to_json(texel_facts(maps.view()).errors)},
+         {"layers", layers_json(maps.view())}},
         str_cat(output, ": ", pages_text(maps.view()), layers.empty() ? "" : ", layers " + layers));
     return Ok{};
 }

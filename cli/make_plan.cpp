@@ -16,8 +16,10 @@
 #include <tetralight/cli/earlier_light.h>
 #include <tetralight/cli/interrupt.h>
 #include <tetralight/cli/lightmap_settings.h>
+#include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflect_inputs.h>
 #include <tetralight/cli/reflection_places_report.h>
+#include <tetralight/cli/submit_slurm.h>
 #include <tetralight/cli/task_record.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/estimate_bytes.h>
@@ -70,6 +72,7 @@ class Planner {
     explicit Planner(const PlanSettings& settings) : settings_(settings) {}
 
     Result<PlanFile> run(std::span<const SceneOrder> orders) {
+        if (auto status = check_slurm_is_done(settings_.job); !status) return status.error();
         if (auto status = make_folders(); !status) return status.error();
         if (auto status = read_old_plan(); !status) return status.error();
         for (const SceneOrder& order : orders) {
@@ -88,18 +91,27 @@ class Planner {
         }
         const PlanFile plan = numbered();
         if (auto status = write_plan(settings_.job, plan); !status) return status.error();
+        warn_of_lost_tasks(plan);
         remove_other_results(settings_.job, plan);
         return plan;
     }
 
   private:
+    void warn_of_lost_tasks(const PlanFile& plan) const {
+        std::set<std::string> keys;
+        for (const PlanTask& task : plan.tasks) keys.insert(task.key);
+        size_t lost = 0;
+        for (size_t i = 0; i < old_.tasks.size(); ++i)
+            lost += !keys.contains(old_.tasks[i].key) && find_record(settings_.job, old_, i);
+        if (lost == 0) return;
+        settings_.common.warn(
+            {str_cat(settings_.job, ": removed the results of ", counted(lost, "finished task"),
+                     " that the new plan does not have")});
+    }
+
     [[nodiscard]] Status make_folders() const {
         for (const char* name : {"prepared", "parts", "done"}) {
-            std::error_code error;
-            fs::create_directories(fs::path(settings_.job) / name, error);
-            if (!error) continue;
-            return Error{ErrorCode::Unavailable, "output", settings_.job,
-                         str_cat(settings_.job, "/", name, ": cannot be made: ", error.message())};
+            if (auto status = make_folder(in_job(name), "output"); !status) return status;
         }
         return Ok{};
     }
@@ -112,32 +124,32 @@ class Planner {
     }
 
     /// The settings of one kind of an order, checked together.
-    [[nodiscard]] static Result<Values> values_of(const SceneOrder& order, const char* kind,
+    [[nodiscard]] static Result<Values> values_of(const SceneOrder& order,
                                                   const settings::Table& table, const Json& json) {
         auto values = settings::values_from_json(table, json, settings::Access::Command);
-        if (!values) return values.error().in(place_of(order, kind));
+        if (!values) return order.is_by_scene ? values.error().in(order.place) : values.error();
         values->set(*table.find("quiet"), true);
         return values;
     }
 
-    [[nodiscard]] static std::string place_of(const SceneOrder& order, const char* kind) {
-        return order.is_by_scene ? order.place : str_cat(order.place, ".", kind);
-    }
-
-    /// Calls `work`; a usage error is one of the order.
+    /// Calls `work`; a usage error is one of the order. Errors name the place in the order.
     template <class Work>
     static Status guarded(const SceneOrder& order, const char* kind, const Work& work) {
+        Status status = Ok{};
         try {
-            return work();
+            status = work();
         } catch (const UsageError& usage) {
-            return usage.error.in(place_of(order, kind));
+            status = order.is_by_scene ? usage.error.in(order.place) : usage.error;
         }
+        if (status || order.is_by_scene || status.error().code == ErrorCode::Cancelled)
+            return status;
+        return status.error().in(str_cat(order.place, ".", kind));
     }
 
     Status add_probes(const SceneOrder& order) {
         if (!order.probes) return Ok{};
         return guarded(order, "probes", [&]() -> Status {
-            const auto values = values_of(order, "probes", settings::kBake, *order.probes);
+            const auto values = values_of(order, settings::kBake, *order.probes);
             if (!values) return values.error();
             BakeInputs inputs(*values);
             inputs.settings.bake.thread_count = settings_.common.thread_count;
@@ -260,8 +272,7 @@ class Planner {
     Status add_lightmaps(const SceneOrder& order) {
         if (!order.lightmaps) return Ok{};
         return guarded(order, "lightmaps", [&]() -> Status {
-            const auto values =
-                values_of(order, "lightmaps", settings::kLightmap, *order.lightmaps);
+            const auto values = values_of(order, settings::kLightmap, *order.lightmaps);
             if (!values) return values.error();
             const SceneOptions options(*values);
             BakeLightmapsSettings asked = lightmap_settings(*values);
@@ -275,7 +286,8 @@ class Planner {
                 }))
                 return Ok{};
             const auto prepared = prepare_lightmaps(*scene, asked);
-            if (!prepared) return prepared.error().in(place_of(order, "lightmaps"));
+            if (!prepared)
+                return order.is_by_scene ? prepared.error().in(order.place) : prepared.error();
             settings_.common.warn(prepared->report.warnings);
             return plan_lightmaps(order, *scene, *prepared);
         });
@@ -320,8 +332,7 @@ class Planner {
     Status add_reflections(const SceneOrder& order) {
         if (!order.reflections) return Ok{};
         return guarded(order, "reflections", [&]() -> Status {
-            const auto values =
-                values_of(order, "reflections", settings::kReflect, *order.reflections);
+            const auto values = values_of(order, settings::kReflect, *order.reflections);
             if (!values) return values.error();
             const ReflectInputs inputs(*values);
             const auto scene = inputs.scene_options.read();

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include <tetralight/base/file_writer.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
 
 namespace tetralight::cli {
 namespace {
@@ -103,6 +105,16 @@ Status check_side_file(const std::string& path, const std::vector<std::string>& 
                      path + ": is another file of this command and would be lost; write elsewhere"};
     }
     return check_output(path, others, setting);
+}
+
+Status make_folder(const std::string& path, const std::string& setting) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!error) return Ok{};
+    // A file in its way stays there.
+    const bool is_file = error == std::errc::not_a_directory || error == std::errc::file_exists;
+    return Error{is_file ? ErrorCode::InvalidArgument : error_code_of_errno(error.value()), setting,
+                 path, str_cat(path, ": cannot be made: ", error.message())};
 }
 
 }  // namespace tetralight::cli

@@ -25,4 +25,7 @@ namespace tetralight::cli {
                                      const std::vector<std::string>& others,
                                      const std::string& setting);
 
+/// Makes a folder and those above it, where they are not there. The error names the setting.
+[[nodiscard]] Status make_folder(const std::string& path, const std::string& setting);
+
 }  // namespace tetralight::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <thread>
@@ -26,6 +27,13 @@ double thread_count(const CommonOptions& common) {
     return std::max(1u, std::thread::hardware_concurrency());
 }
 
+/// With three digits.
+std::string rounded(double number) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g", number);
+    return buffer;
+}
+
 std::string size_text(size_t bytes) {
     return magnitude(static_cast<double>(bytes)) + "B";
 }
@@ -48,13 +56,13 @@ void report(const CommonOptions& common, const std::string& job, const PlanFile&
         bytes += result.bytes;
     }
     const double core_hours = cost * thread_count(common) / 3600.0;
-    std::string text = str_cat(job, ": ", counted(plan.tasks.size(), "task"), " in ",
-                               counted(plan.phases.size(), "phase"), ", about ", magnitude(rays),
-                               "rays, ", duration(cost),
-                               " on this machine; probes and "
-                               "lightmaps of ",
-                               size_text(bytes));
-    if (price) text += str_cat("; ", core_hours * *price, " for ", core_hours, " core hours");
+    std::string text =
+        str_cat(job, ": ", counted(plan.tasks.size(), "task"), " in ",
+                counted(plan.phases.size(), "phase"), ", about ", magnitude(rays), "rays, ",
+                duration(cost), " on this machine; files of ", size_text(bytes));
+    if (price)
+        text += str_cat("; ", rounded(core_hours * *price), " for ", rounded(core_hours),
+                        " core hours");
     if (done > 0) text += str_cat("; ", done, done == 1 ? " is done" : " are done");
     common.print({{"job", job},
                   {"tasks", plan.tasks.size()},

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/plan_file.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
@@ -62,13 +64,27 @@ class Reader {
     std::string failed_;
 };
 
+/// A name that stays in its folder.
+bool is_file_name(const std::string& name) {
+    return !name.empty() && name[0] != '.' && name.find_first_of("/\\") == std::string::npos;
+}
+
+/// A path that stays in the folder of the job.
+bool is_in_job(const std::string& path) {
+    const std::filesystem::path whole(path);
+    return !path.empty() && whole.is_relative() &&
+           std::ranges::none_of(whole, [](const auto& part) { return part == ".."; });
+}
+
 PlanTask task_from(const Json& json, const std::string& place, Reader& reader) {
     PlanTask task{
         reader.take<std::string>(json, place, "name"), reader.take<double>(json, place, "cost"),
         reader.take<double>(json, place, "rays"), reader.take<std::string>(json, place, "key"),
         reader.take<Json>(json, place, "command")};
-    if (task.command.is_object())
-        (void)reader.take<std::string>(task.command, place + ".command", "output");
+    if (!is_file_name(task.key)) reader.fail(place + ".key");
+    if (!task.command.is_object() ||
+        !is_in_job(reader.take<std::string>(task.command, place + ".command", "output")))
+        reader.fail(place + ".command.output");
     return task;
 }
 
@@ -82,6 +98,11 @@ PlanResult result_from(const Json& json, const std::string& place, size_t task_c
                       {},
                       reader.take<Json>(json, place, "command"),
                       reader.take<Json>(json, place, "lamps")};
+    for (const auto& [member, name] : {std::pair("scene", &result.scene),
+                                       {"kind", &result.kind},
+                                       {"file", &result.file},
+                                       {"key", &result.key}})
+        if (!is_file_name(*name)) reader.fail(str_cat(place, ".", member));
     const auto tasks = json.find("tasks");
     const bool is_list = tasks != json.end() && tasks->is_array();
     if (!is_list) reader.fail(place + ".tasks");

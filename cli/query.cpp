@@ -94,7 +94,7 @@ struct Query {
             return Error{ErrorCode::InvalidArgument, "normals", "",
                          volume_path + ": is a world, which answers positions without normals"};
         }
-        auto world = World::open(volume_path);
+        auto world = World::open(volume_path, {.is_verified = true});
         if (!world) return world.error();
         const auto precision = is_half ? WorldBatch::Precision::Fast : WorldBatch::Precision::Full;
         return answer(

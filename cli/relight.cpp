@@ -10,12 +10,14 @@
 #include <tetralight/bake/project_environment.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/layer_report.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/sky_options.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/blend_volumes.h>
+#include <tetralight/probes/layer_noise.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/recombine.h>
 
@@ -192,8 +194,14 @@ struct Relight {
             line += str_cat(line.empty() ? "" : ", ", printable(std::string(names[i])), " ",
                             volume.layers[i].weight);
         }
+        const auto dilated = std::ranges::count_if(
+            volume.health, [](const ProbeHealth& health) { return health.is_dilated != 0; });
         common.report(output,
-                      {{"output", output}, {"probes", volume.positions.size()}, {"layers", layers}},
+                      {{"output", output},
+                       {"probes", volume.positions.size()},
+                       {"dilated", dilated},
+                       {"standard_error", to_json(relit_noise(volume.view()))},
+                       {"layers", layers}},
                       str_cat(output, ": ", counted(volume.positions.size(), "probe"),
                               line.empty() ? "" : ", layers " + line));
     }

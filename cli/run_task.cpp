@@ -56,8 +56,8 @@ Error tasks_missing(const std::vector<size_t>& missing, size_t count) {
         numbers += str_cat(i == 0 ? "" : ", ", missing[i]);
     if (missing.size() > kMostNamed) numbers += ", ...";
     return {ErrorCode::Unavailable, "tasks", numbers,
-            str_cat(missing.size(), " of ", count, missing.size() == 1 ? " task is" : " tasks are",
-                    " not done: ", numbers)};
+            str_cat(missing.size(), " of ", counted(count, "task"),
+                    missing.size() == 1 ? " is" : " are", " not done: ", numbers)};
 }
 
 Result<TaskRun> run_task(const PlanFile& plan, size_t task, const CommonOptions& common) {

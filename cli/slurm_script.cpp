@@ -97,9 +97,10 @@ CommandWords sbatch(const Submission& submission, const std::string& log) {
     return words;
 }
 
-void add_dependency(CommandWords& words, const std::string& after) {
+/// `kind`: "afterok", or "afterany" for what runs after failures, too.
+void add_dependency(CommandWords& words, const char* kind, const std::string& after) {
     if (after.empty()) return;
-    words.push_back("--dependency=afterok:" + after);
+    words.push_back(str_cat("--dependency=", kind, ":", after));
     words.push_back("--kill-on-invalid-dep=yes");
 }
 
@@ -149,7 +150,7 @@ CommandWords send_phase(const Submission& submission, const PhaseWork& phase,
     std::string array = "--array=" + array_elements(phase);
     if (submission.at_once > 0) array += str_cat("%", submission.at_once);
     words.push_back(array);
-    add_dependency(words, after);
+    add_dependency(words, "afterok", after);
     add_script(words, submission, "slurm/task.sbatch");
     for (const size_t number : {phase.range.begin, phase.range.end, tasks_per_element(phase)})
         words.push_back(str_cat(number));
@@ -158,7 +159,8 @@ CommandWords send_phase(const Submission& submission, const PhaseWork& phase,
 
 CommandWords send_collect(const Submission& submission, const std::string& after) {
     CommandWords words = sbatch(submission, "collect-%j.log");
-    add_dependency(words, after);
+    // It joins what is whole, and reports what is not.
+    add_dependency(words, "afterany", after);
     add_script(words, submission, "slurm/collect.sbatch");
     return words;
 }

@@ -9,6 +9,7 @@
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
 #include <tetralight/cli/task_record.h>
 
 namespace tetralight::cli {
@@ -80,15 +81,11 @@ Result<std::string> output_of_job(const std::string& job) {
 }
 
 Status write_job_files(const std::string& job, const std::vector<JobFile>& files) {
-    std::error_code error;
-    fs::create_directories(fs::path(job) / "logs", error);
+    const std::string logs = (fs::path(job) / "logs").string();
+    if (auto status = make_folder(logs, "job"); !status) return status;
     for (const JobFile& file : files) {
         const fs::path path = fs::path(job) / file.path;
-        if (!error) fs::create_directories(path.parent_path(), error);
-        if (error) {
-            return Error{ErrorCode::Unavailable, "job", job,
-                         str_cat(path.string(), ": cannot be written: ", error.message())};
-        }
+        if (auto status = make_folder(path.parent_path().string(), "job"); !status) return status;
         if (auto status = write_file(path.string(), std::as_bytes(std::span(file.text))); !status)
             return status;
     }

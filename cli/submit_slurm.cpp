@@ -76,19 +76,6 @@ std::vector<std::string> earlier_jobs(const std::string& job) {
     return jobs;
 }
 
-/// Sending a job twice would run each task twice, to the same bytes.
-Status check_earlier_jobs_ended(const std::string& job) {
-    const std::vector<std::string> jobs = earlier_jobs(job);
-    if (jobs.empty()) return Ok{};
-    const auto queue =
-        run_words({"squeue", "--noheader", "--format=%A", "--jobs=" + joined_by(jobs, ",")}, job);
-    // It fails once Slurm has forgotten all of them.
-    if (!queue || !queue->succeeded() || queue->output.empty()) return Ok{};
-    return Error{ErrorCode::InvalidArgument, "job", job,
-                 str_cat(job, ": was sent, and Slurm still works for it: wait, or end it by ",
-                         "`scancel ", joined_by(jobs, " "), "`")};
-}
-
 Status write_submitted(const Submission& submission, const Json& jobs) {
     return write_json(
         submitted_path(submission.job),
@@ -158,7 +145,7 @@ Result<Json> submit_to_slurm(const Submission& submission) {
         return Error{ErrorCode::InvalidArgument, "job", submission.job,
                      str_cat(submission.job, ": Slurm cannot write logs to a path with \\")};
     }
-    if (auto status = check_earlier_jobs_ended(submission.job); !status) return status.error();
+    if (auto status = check_slurm_is_done(submission.job); !status) return status.error();
     if (auto status = write_job_files(submission.job, slurm_files(submission)); !status)
         return status.error();
     std::vector<std::string> sent;
@@ -173,6 +160,18 @@ Result<Json> submit_to_slurm(const Submission& submission) {
     if (auto status = write_submitted(submission, jobs); !status)
         return taken_back(status.error(), sent, submission.job);
     return jobs;
+}
+
+Status check_slurm_is_done(const std::string& job) {
+    const std::vector<std::string> jobs = earlier_jobs(job);
+    if (jobs.empty()) return Ok{};
+    const auto queue =
+        run_words({"squeue", "--noheader", "--format=%A", "--jobs=" + joined_by(jobs, ",")}, job);
+    // It fails once Slurm has forgotten all of them.
+    if (!queue || !queue->succeeded() || queue->output.empty()) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "job", job,
+                 str_cat(job, ": was sent, and Slurm still works for it: wait, or end it by ",
+                         "`scancel ", joined_by(jobs, " "), "`")};
 }
 
 }  // namespace tetralight::cli

@@ -22,4 +22,8 @@ namespace tetralight::cli {
 /// invalid_argument while Slurm has jobs of an earlier submission.
 [[nodiscard]] Result<Json> submit_to_slurm(const Submission& submission);
 
+/// Returns invalid_argument while Slurm has jobs of an earlier submission: they run the tasks of
+/// the plan by their numbers.
+[[nodiscard]] Status check_slurm_is_done(const std::string& job);
+
 }  // namespace tetralight::cli

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include <tetralight/base/str_cat.h>
 #include <tetralight/cli/json_file.h>
 
 namespace tetralight::cli {
@@ -45,6 +46,15 @@ std::optional<TaskRecord> find_record(const std::string& job, const PlanFile& pl
     return TaskRecord{
         plan.tasks[task].key, *size, seconds.is_number() ? seconds.get<double>() : 0.0,
         host.is_string() ? host.get<std::string>() : "", json.value("report", Json::object())};
+}
+
+std::string damage_of(const std::string& job, const PlanFile& plan, size_t task) {
+    const PlanTask& done = plan.tasks[task];
+    const Json bytes = read_object(record_path(job, done)).value("bytes", Json());
+    const auto size = size_of(fs::path(job) / done.output());
+    if (!bytes.is_number_unsigned() || bytes == size.value_or(0)) return "";
+    return str_cat(done.output(), size ? str_cat(" has ", *size, " bytes") : " is not there",
+                   ", and task ", task, " wrote ", bytes.dump(), " bytes");
 }
 
 Status write_record(const std::string& job, const PlanFile& plan, size_t task, double seconds,

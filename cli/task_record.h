@@ -26,6 +26,10 @@ struct TaskRecord {
 [[nodiscard]] std::optional<TaskRecord> find_record(const std::string& job, const PlanFile& plan,
                                                     size_t task);
 
+/// What is wrong with the file of a task that has a record, and is not done for that; empty:
+/// nothing, or the task has no record.
+[[nodiscard]] std::string damage_of(const std::string& job, const PlanFile& plan, size_t task);
+
 /// Writes the record of a task whose file was written. The old file stays whole on failure.
 [[nodiscard]] Status write_record(const std::string& job, const PlanFile& plan, size_t task,
                                   double seconds, const Json& report);

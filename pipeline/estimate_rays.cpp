@@ -11,10 +11,10 @@
 namespace tetralight {
 namespace {
 
-/// Of all places, a sixteenth is sampled, but not fewer or more than these.
-constexpr size_t kFewest = 64;
+/// Of all places, an eighth is sampled, but not fewer or more than these.
+constexpr size_t kFewest = 128;
 constexpr size_t kMost = 1024;
-constexpr size_t kShare = 16;
+constexpr size_t kShare = 8;
 /// Samples of a sampled place: with fewer, light that is seldom found is not known of.
 constexpr uint32_t kFirstSamples = 1024;
 

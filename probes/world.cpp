@@ -24,8 +24,8 @@ std::span<const uint32_t> indices_of(const ProbeFile& file, std::string_view sec
 
 /// Opens a tile and compares it with its entry in the index.
 Result<ProbeFile> open_tile_file(const std::string& path, const WorldInfo& info,
-                                 const WorldTile& tile) {
-    auto file = open_probe_file_lazy(path);
+                                 const WorldTile& tile, bool is_verified) {
+    auto file = is_verified ? open_probe_file(path) : open_probe_file_lazy(path);
     if (!file) return file;
     const ProbeVolumeView& volume = file->view();
     const bool is_of_index = volume.probe_count() == tile.probe_count &&
@@ -157,8 +157,8 @@ WorldMove World::open_only(std::span<const uint32_t> wanted) {
         if (next->files_[tile]) continue;
         next->files_[tile] = open->files_[tile];
         if (next->files_[tile]) continue;
-        auto file =
-            open_tile_file(state_->paths[tile], state_->index->info, state_->index->tiles[tile]);
+        auto file = open_tile_file(state_->paths[tile], state_->index->info,
+                                   state_->index->tiles[tile], state_->options.is_verified);
         if (!file) {
             move.failures.push_back(file.error());
             continue;

@@ -57,6 +57,9 @@ struct WorldOptions {
     double hysteresis = 8.0;
     /// Files that are open have at most so many bytes together: the nearest ones.
     uint64_t max_size = std::numeric_limits<uint64_t>::max();
+    /// Verifies each tile when it opens (`open_probe_file`), which reads all of it: for files that
+    /// are not trusted. Without it damaged tiles give wrong light.
+    bool is_verified = false;
 };
 
 /// What a call of `World::move_to` did.

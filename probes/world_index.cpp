@@ -21,7 +21,7 @@ namespace {
 using detail::section_error;
 
 constexpr detail::SectionFileKind kWorldIndexKind{
-    {'T', 'E', 'T', 'R', 'A', 'W', 'I', '\n'}, 1, "index of a world"};
+    {'T', 'E', 'T', 'R', 'A', 'W', 'I', '\n'}, 1, "world index"};
 
 constexpr auto kWorldIndexMembers = [](auto visit) {
     visit("tiles", &WorldIndexView::tiles);

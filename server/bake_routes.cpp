@@ -29,6 +29,9 @@ void check_limits(Fields& fields) {
     const auto read = read_limits(*limits);
     if (!read)
         throw Problem{400, "invalid_value", detail_of(read.error()), "limits", shown(*limits)};
+    if (fields.text("batch").empty())
+        throw Problem{400, "missing_value", "limits need a batch, whose report compares them",
+                      "batch"};
 }
 
 BakeOrder read_order(Service& service, Kind kind, const Json& json) {

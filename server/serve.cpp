@@ -141,7 +141,7 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it
     keep_memory();
     raise_descriptor_limit();
-    if (settings.bakes_on == Settings::BakesOn::Slurm) {
+    if (settings.bakes_on == Settings::BakesOn::Slurm && !settings.is_read_only) {
         if (auto status = find_slurm(); !status) return status;
     }
     Log log(settings.log_level);

@@ -51,8 +51,8 @@ TEST(BatchReport, ComparesEachFileWithItsLimits) {
     EXPECT_EQ(report["scenes"][0]["rays"], 1500);
     EXPECT_EQ(report["scenes"][0]["seconds"], 10.0);
     EXPECT_EQ(failed_limits(report),
-              "hall: leak of probes is 0.25, more than 0.2\n"
-              "hall: error of lightmaps is 0.75, more than 0.5\n"
+              "hall: leak of probes is 0.25, more than 0.2; "
+              "hall: error of lightmaps is 0.75, more than 0.5; "
               "hall: seconds are 10, more than 9");
 }
 

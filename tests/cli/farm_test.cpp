@@ -61,6 +61,93 @@ TEST_F(Farm, MissingTasksAreNamedAndMeanTryAgain) {
                          "courtyard: probes: 2 of 3 tasks are not done: 0, 2"));
 }
 
+TEST_F(Farm, PartsThatAreDamagedAreNamed) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"plan", "order.json", "--tasks", "2", "-o", "job"});
+    run_tasks();
+    const std::string name = "parts/courtyard.probes.00001.part", part = read("job/" + name);
+    write("job/" + name, part.substr(0, 100));
+    EXPECT_TRUE(contains(fail({"collect", "job"}, "", 75),
+                         str_cat("1 of 2 tasks is not done: 1; ", name,
+                                 " has 100 bytes, and task 1 wrote ", part.size(), " bytes")));
+    std::string damaged = part;
+    damaged[damaged.size() / 2] ^= 1;
+    write("job/" + name, damaged);
+    const std::string line = fail({"collect", "job"});
+    EXPECT_TRUE(contains(line, "courtyard: probes: " + name)) << line;
+    EXPECT_TRUE(contains(line, "delete a part that is damaged")) << line;
+    std::filesystem::remove(path("job/" + name));
+    succeed({"task", "job", "1", "-q"});
+    succeed({"collect", "job", "-q"});
+}
+
+TEST_F(Farm, WhatIsWholeIsCollectedAndTheRestReported) {
+    cheap_order();
+    succeed({"plan", "order.json", "--tasks", "1", "-o", "job"});
+    run_tasks();
+    std::filesystem::remove(path("job/parts/courtyard.probes.00000.part"));
+    const CommandResult result = run({"collect", "job", "-o", "baked"});
+    EXPECT_EQ(result.exit_code, 75);
+    EXPECT_TRUE(contains(result.out, "again.probes: "));
+    EXPECT_TRUE(contains(result.err, "courtyard: probes: 1 of 1 task is not done: 0"));
+    EXPECT_FALSE(std::filesystem::exists(path("baked/courtyard.probes")));
+    EXPECT_TRUE(std::filesystem::exists(path("baked/courtyard.lightmaps")));
+    EXPECT_TRUE(std::filesystem::exists(path("baked/again.probes")));
+    const Json report = Json::parse(read("baked/report.json"));
+    EXPECT_FALSE(report["passed"].get<bool>());
+    EXPECT_TRUE(contains(report["scenes"][0]["error"].get<std::string>(), "is not done"));
+    EXPECT_TRUE(report["scenes"][1]["passed"].get<bool>());
+}
+
+TEST_F(Farm, OutputsThatWereChangedAreWrittenAgain) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    const std::string file = "baked/courtyard.probes", first = read(file);
+    std::string damaged = first;
+    damaged[damaged.size() / 2] ^= 1;
+    write(file, damaged);
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_TRUE(read(file) == first);
+}
+
+TEST_F(Farm, AnotherCutSaysThatFinishedTasksAreLost) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"plan", "order.json", "--tasks", "3", "-o", "job"});
+    succeed({"task", "job", "1", "-q"});
+    EXPECT_TRUE(contains(run({"plan", "order.json", "--tasks", "2", "-o", "job"}).err,
+                         "removed the results of 1 finished task"));
+}
+
+TEST_F(Farm, PlansCannotWriteOutsideTheirFolders) {
+    order(R"("probes": {"samples": 16})");
+    succeed({"plan", "order.json", "--tasks", "1", "-o", "job"});
+    const Json plan = Json::parse(read("job/plan.json"));
+    const auto refused = [&](const char* place, const char* value) {
+        Json changed = plan;
+        changed[Json::json_pointer(place)] = value;
+        write("job/plan.json", changed.dump());
+        return fail({"collect", "job"});
+    };
+    for (const char* file : {"../evil.probes", "/evil.probes", ".hidden", ""})
+        EXPECT_TRUE(contains(refused("/results/0/file", file), "results[0].file")) << file;
+    EXPECT_TRUE(contains(refused("/results/0/key", "../x"), "results[0].key"));
+    EXPECT_TRUE(contains(refused("/tasks/0/key", "../x"), "tasks[0].key"));
+    for (const char* output : {"/x.part", "parts/../../x.part"})
+        EXPECT_TRUE(contains(refused("/tasks/0/command/output", output), "tasks[0].command.output"))
+            << output;
+}
+
+TEST_F(Farm, FoldersThatAreFilesStayWrong) {
+    order(R"("probes": {"samples": 16})");
+    EXPECT_TRUE(contains(fail({"plan", "order.json", "-o", "order.json"}), "cannot be made"));
+}
+
+TEST_F(Farm, ScenesThatCannotBeReadAreNamedByTheirPlace) {
+    write("order.json", R"({"scenes": [{"scene": "nothing.glb", "probes": {}}]})");
+    EXPECT_TRUE(
+        contains(fail({"plan", "order.json", "-o", "job"}), "order.json: scenes[0].probes: "));
+}
+
 TEST_F(Farm, LaterPhasesWaitForEarlierOnes) {
     order(R"("lightmaps": {"samples": 16, "texels_per_meter": 1})");
     succeed({"plan", "order.json", "--tasks", "2", "-o", "job"});
@@ -192,6 +279,25 @@ TEST_F(FarmOfALamp, AStrongerLampOfItsOwnLayerIsNotBakedAgain) {
         write("first.probes", first);
         return light("first.probes");
     }());
+}
+
+TEST_F(FarmOfALamp, LimitsAreKeptByTheSameLightWithOtherWeights) {
+    order_of_lamp();
+    Json order = Json::parse(read("order.json"));
+    order["limits"] = {{"error", "90%"}, {"dead_probes", "10%"}};
+    write("order.json", order.dump());
+    scene(R"("intensity": 100)");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    scene(R"("intensity": 300)");
+    succeed({"bake-all", "order.json", "-o", "baked", "-q"});
+    EXPECT_EQ(task_count(), 0u);
+    const Json scene = Json::parse(read("baked/report.json"))["scenes"][0];
+    // As the volume itself says.
+    const Json info = run_json({"info", "baked/scene.probes"});
+    for (const Json& check : scene["limits"]) {
+        const bool is_error = check["name"] == "error of probes";
+        EXPECT_EQ(check["value"], is_error ? info["standard_error"]["p99"] : Json(0.0));
+    }
 }
 
 TEST_F(FarmOfALamp, AnotherColorIsBaked) {

@@ -117,7 +117,7 @@ TEST_F(Submit, EachPhaseWaitsForTheOneBefore) {
                   "--parsable --cpus-per-task=2 --array=0-1%8 --dependency=afterok:71 "
                   "--kill-on-invalid-dep=yes " +
                       options + "task.sbatch tetralight 10 3 5 1",
-                  "--parsable --cpus-per-task=2 --dependency=afterok:72 "
+                  "--parsable --cpus-per-task=2 --dependency=afterany:72 "
                   "--kill-on-invalid-dep=yes " +
                       options + "collect.sbatch tetralight 10"}));
     EXPECT_EQ(json["tasks"], 5);
@@ -134,7 +134,7 @@ TEST_F(Submit, TasksThatAreDoneAreNotSent) {
     const auto commands = sent_words(read("sent"));
     ASSERT_EQ(commands.size(), 2u);
     EXPECT_TRUE(contains(commands[0], "--array=1-2,4-5 "));
-    EXPECT_TRUE(contains(commands[1], "afterok:71"));
+    EXPECT_TRUE(contains(commands[1], "afterany:71"));
 }
 
 TEST_F(Submit, ArraysHaveAtMostAThousandElements) {
@@ -156,6 +156,7 @@ TEST_F(Submit, ADryRunWritesAndSendsNothing) {
         const std::string out = succeed({"submit", "job", "--to", scheduler, "--dry-run"}).out;
         EXPECT_TRUE(contains(out, "== " + path("job"))) << out;
         EXPECT_TRUE(contains(out, "\n$ ")) << out;
+        EXPECT_FALSE(contains(out, "\\u")) << out;
     }
     EXPECT_EQ(file_names(), before);
     EXPECT_FALSE(std::filesystem::exists(path("job/submit.json")));
@@ -184,6 +185,10 @@ TEST_F(Submit, AJobThatSlurmWorksForIsNotSentAgain) {
     const PathBefore path_before = stand_ins();
     succeed({"submit", "job", "--to", "slurm"});
     EXPECT_TRUE(contains(fail({"submit", "job", "--to", "slurm"}), "`scancel 71 72`"));
+    // The numbers of its tasks stay.
+    const std::string before = read("job/plan.json");
+    EXPECT_TRUE(contains(fail({"plan", kCourtyard, "-o", "job"}), "`scancel 71 72`"));
+    EXPECT_EQ(read("job/plan.json"), before);
     programs_.script("squeue", "echo 'slurm_load_jobs error: Invalid job id' >&2; exit 1");
     succeed({"submit", "job", "--to", "slurm"});
 }

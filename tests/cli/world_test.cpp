@@ -71,6 +71,8 @@ TEST_F(WorldCommand, InfoVerifiesAllTiles) {
     bytes[bytes.size() / 2] ^= 1;
     write("w/" + name, bytes);
     EXPECT_TRUE(contains(fail({"info", "w"}), "w: tile "));
+    write("p.txt", positions(500));
+    EXPECT_TRUE(contains(fail({"query", "w", "p.txt"}), name));
     std::filesystem::remove(path("w/" + name));
     EXPECT_TRUE(contains(fail({"info", "w"}), name));
 }

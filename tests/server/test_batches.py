@@ -67,7 +67,7 @@ class Batches(BakeTest):
         server = self.start()
         for members, detail in (({"limits": {"eror": 1}}, "eror"), ({"limits": 3}, "limits"),
                                 ({"limits": {"error": "much"}}, "error"), ({"batch": "a/b"}, "batch"),
-                                ({"batch": 3}, "batch")):
+                                ({"batch": 3}, "batch"), ({"limits": {"error": 1}}, "need a batch")):
             answer = server.post("/v1/bakes", {"scene": self.scene, **members})
             self.assertEqual(answer.status, 400, answer.body)
             self.assertIn(detail, answer.json()["detail"])
