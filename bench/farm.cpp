@@ -40,14 +40,23 @@ double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Expected rays over those of the bake, by target error.
+/// Places of probes in free space, in the order of a bake.
+std::vector<glm::dvec3> places_in(const Scene& scene, size_t count) {
+    const std::vector<ProbeGroup> groups{make_group("probes", free_positions(scene, count))};
+    auto prepared = prepare_bake(scene, groups, {});
+    require(bool(prepared), "prepare");
+    return std::move(prepared->capture_positions);
+}
+
+/// Expected rays over those of the bake, by target error. Most places are not sampled.
 void bench_rays(const BakeSubject& subject) {
+    const std::vector<glm::dvec3> places = places_in(subject.scene, 1024);
     for (const double target : {0.05, 0.02, 0.01}) {
         BakeSettings settings;
         settings.target_error = target;
-        const auto estimate = estimate_rays(subject.scene, {subject.probes, {}}, settings, {});
+        const auto estimate = estimate_rays(subject.scene, {places, {}}, settings, {});
         require(bool(estimate), "estimate");
-        const double rays = sum(real_rays(subject.scene, subject.probes, settings));
+        const double rays = sum(real_rays(subject.scene, places, settings));
         report(str_cat("farm.cost_rays.", subject.name, ".", target), estimate->rays / rays,
                str_cat("of the ", std::llround(rays), " rays of the bake"));
     }
@@ -70,15 +79,11 @@ void bench_bytes(const BakeSubject& subject) {
 
 /// Most rays of a task over the mean of 64 tasks.
 void bench_imbalance(const BakeSubject& subject) {
-    constexpr size_t kTasks = 64, kProbes = 8192;
-    BakeVolumeSettings settings;
-    settings.bake.target_error = 0.05;
-    const std::vector<ProbeGroup> groups{
-        make_group("probes", free_positions(subject.scene, kProbes))};
-    const auto prepared = prepare_bake(subject.scene, groups, settings);
-    require(bool(prepared), "prepare");
+    constexpr size_t kTasks = 64;
+    BakeSettings settings;
+    settings.target_error = 0.05;
     const std::vector<double> rays =
-        real_rays(subject.scene, prepared->capture_positions, settings.bake);
+        real_rays(subject.scene, places_in(subject.scene, 8192), settings);
     double most = 0.0;
     for (const PlaceRange& range : spread_ranges(rays.size(), kTasks))
         most = std::max(most, sum(take<double>(rays, range)));
