@@ -62,8 +62,9 @@ export function locateOffSurface(query: Query, position: ArrayLike<number>, norm
                                  settings: QuerySettings): void {
     query.locate(position[0], position[1], position[2], hint, {...settings, outside: 'extrapolate'});
     const distance = query.pushDistance(settings);
-    query.locate(position[0] + distance * normal[0], position[1] + distance * normal[1],
-                 position[2] + distance * normal[2], query.cell, settings);
+    // Rounded, as in languages whose positions are floats.
+    query.locate(Math.fround(position[0] + distance * normal[0]), Math.fround(position[1] + distance * normal[1]),
+                 Math.fround(position[2] + distance * normal[2]), query.cell, settings);
 }
 
 function checkBatch(positions: ArrayLike<number>, outputs: BatchOutputs, {normals}: BatchOptions): number {
@@ -92,7 +93,7 @@ function varying(name: string, values: number | ArrayLike<number>, count: number
 
 /** Writes answer i to its place in each output. */
 class Writer {
-    private readonly sum = new Float64Array(kCoefficients);
+    private readonly sum = new Float32Array(kCoefficients);
 
     constructor(private readonly cells: Uint32Array, private readonly probes: ProbeLight,
                 private readonly outputs: BatchOutputs) {}

@@ -10,10 +10,14 @@ export interface ProbeLight {
     ambient: Float32Array;     // 27
 }
 
-/** In full precision if the file has that, otherwise from the halves. */
-export function readProbeLight(volume: VolumeData): ProbeLight {
+/** Full: if the file has that, otherwise half. Half: if the file has that, otherwise full. */
+export type Precision = 'full' | 'half';
+
+/** From the floats or the halves of a file. */
+export function readProbeLight(volume: VolumeData, precision: Precision): ProbeLight {
     const {irradiance, occlusion, compact, info} = volume;
-    if (irradiance.length > 0 || compact.length === 0) return {irradiance, occlusion, ambient: info.ambient};
+    const isFull = compact.length === 0 || (precision === 'full' && irradiance.length > 0);
+    if (isFull) return {irradiance, occlusion, ambient: info.ambient};
     const count = compact.length / 32;
     const light = {irradiance: new Float32Array(27 * count), occlusion: new Float32Array(4 * count), ambient: info.ambient};
     for (let i = 0; i < count; ++i) {
@@ -31,11 +35,9 @@ function floatOfHalf(half: number): number {
     return half & 0x8000 ? -size : size;
 }
 
-type Numbers = Float32Array | Float64Array;
-
 /** Writes Σ weight · light of the cell's vertices + ambient · ambient light: the 27 numbers from `to` on. */
 export function blendIrradiance(cells: Uint32Array, {irradiance, ambient}: ProbeLight, cell: number, weights: Float64Array,
-                                share: number, out: Numbers, to: number): void {
+                                share: number, out: Float32Array, to: number): void {
     if (cell === kNone || irradiance.length === 0) {
         out.set(ambient, to);
         return;
@@ -57,7 +59,7 @@ export function blendIrradiance(cells: Uint32Array, {irradiance, ambient}: Probe
 
 /** The same for the four channels of occlusion: 1 = lit. */
 export function blendOcclusion(cells: Uint32Array, {occlusion}: ProbeLight, cell: number, weights: Float64Array,
-                               share: number, out: Numbers, to: number): void {
+                               share: number, out: Float32Array, to: number): void {
     if (cell === kNone || occlusion.length === 0) {
         out.fill(1, to, to + 4);
         return;

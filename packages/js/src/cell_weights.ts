@@ -6,8 +6,8 @@ import {Dimension, VolumeData} from './volume_data.js';
 /** Times the squares of three corners, relative to the position: the square of the rounding of a sum of volumes. */
 const kSliverRounding = 1e-24;
 
-/** A tetrahedron with more of the cube of its farthest corner is neither a sliver nor far away. */
-const kThick = 1e-8;
+/** A tetrahedron with more of the cube of the squares of its corners is neither a sliver nor far away. */
+const kThick = 1e-16;
 
 /** Beyond so many squares of its longest edge a tetrahedron is far away. */
 const kFarSquare = 2 ** 20;
@@ -18,14 +18,18 @@ const kFarthestExtents = 65536;
 export class CellWeights {
     /** The local position. */
     readonly q = new Float64Array(3);
-    /** Of the cell that was weighed last: not normalized, the fourth is −1 behind a hull triangle. */
-    readonly w = new Float64Array(4);
+    /** Of the cell that was weighed last: not normalized, the fourth is −1 behind a hull triangle. Then the measure. */
+    readonly w = new Float64Array(5);
     readonly cellCount: number;
+    private readonly isInSpace: boolean;
+    private readonly innerCellCount: number;
     private readonly corners = new Float64Array(12);
     private readonly hull = new HullCell();
 
     constructor(readonly volume: VolumeData) {
         this.cellCount = volume.cells.length / 8;
+        this.isInSpace = volume.info.dimension === Dimension.Space;
+        this.innerCellCount = volume.info.innerCellCount;
     }
 
     /** Sets `q`. False if the world position is not finite. */
@@ -61,15 +65,21 @@ export class CellWeights {
         for (let i = 0; i < 3; ++i) q[i] *= scale;
     }
 
-    /** Sets `w`. Returns the smallest weight over their sum: ≥ 0 if the cell contains the position, −∞ for slivers. */
-    weigh(cell: number): number {
-        const {volume: {info}} = this;
-        if (info.dimension !== Dimension.Space) return this.weighFlat(cell);
-        return cell < info.innerCellCount ? this.weighTetrahedron(cell) : this.weighHull(cell);
+    /** The smallest weight over their sum: ≥ 0 if the cell contains the position, −∞ for slivers. */
+    get measure(): number {
+        return this.w[4];
+    }
+
+    /** Weighs the position in a cell. True if the cell contains it. */
+    contains(cell: number): boolean {
+        if (!this.isInSpace) this.weighFlat(cell);
+        else if (cell < this.innerCellCount) this.weighTetrahedron(cell);
+        else this.weighHull(cell);
+        return this.w[4] >= 0;
     }
 
     /** Signed volumes of the position with the faces: b·(c×d), −a·(c×d), d·(a×b), −c·(a×b). */
-    private weighTetrahedron(cell: number): number {
+    private weighTetrahedron(cell: number): void {
         const {w, q, volume: {positions: p, cells}} = this;
         const at = 8 * cell;
         const qx = q[0], qy = q[1], qz = q[2];
@@ -85,28 +95,31 @@ export class CellWeights {
         const w2 = dx * fx + dy * fy + dz * fz;
         const w3 = -(cx * fx + cy * fy + cz * fz);
         const sum = w0 + w2 + (w1 + w3);
-        const farthest = Math.max(Math.abs(ax), Math.abs(ay), Math.abs(az), Math.abs(bx), Math.abs(by), Math.abs(bz),
-                                  Math.abs(cx), Math.abs(cy), Math.abs(cz), Math.abs(dx), Math.abs(dy), Math.abs(dz));
+        const squares = ax * ax + ay * ay + az * az + (bx * bx + by * by + bz * bz) + (cx * cx + cy * cy + cz * cz) +
+                        (dx * dx + dy * dy + dz * dz);
         w[0] = w0;
         w[1] = w1;
         w[2] = w2;
         w[3] = w3;
-        if (!(sum > kThick * farthest * farthest * farthest)) return this.weighThin(a, b, c, d);
-        return Math.min(w0, w1, w2, w3) / sum;
+        const isThick = sum > 0 && sum * sum > kThick * squares * squares * squares;
+        if (!isThick) return this.weighThin(a, b, c, d);
+        const low = w0 < w1 ? w0 : w1;
+        const high = w2 < w3 ? w2 : w3;
+        w[4] = (low < high ? low : high) / sum;
     }
 
     /** The same where rounding counts: `w` has the volumes, vertices are given by their places. */
-    private weighThin(a: number, b: number, c: number, d: number): number {
+    private weighThin(a: number, b: number, c: number, d: number): void {
         const {w, q, volume: {positions: p}} = this;
         const edge = (from: number, to: number) => square(p[to] - p[from], p[to + 1] - p[from + 1], p[to + 2] - p[from + 2]);
         const away = (corner: number) => square(p[corner] - q[0], p[corner + 1] - q[1], p[corner + 2] - q[2]);
         if (away(a) > kFarSquare * Math.max(edge(a, b), edge(a, c), edge(a, d))) return this.weighFar(a, b, c, d);
         const squares = [away(a), away(b), away(c), away(d)].sort((x, y) => x - y);
-        return measure(w, kSliverRounding * squares[1] * squares[2] * squares[3]);
+        setMeasure(w, kSliverRounding * squares[1] * squares[2] * squares[3]);
     }
 
     /** From edges, whose digits differences to a far position lose. Only the signs are good. */
-    private weighFar(a: number, b: number, c: number, d: number): number {
+    private weighFar(a: number, b: number, c: number, d: number): void {
         const {w, q, volume: {positions: p}} = this;
         const volumeOf = (from: number, i: number, j: number) => {
             const [ix, iy, iz] = [p[i] - p[from], p[i + 1] - p[from + 1], p[i + 2] - p[from + 2]];
@@ -118,46 +131,46 @@ export class CellWeights {
         w[1] = volumeOf(a, d, c);
         w[2] = volumeOf(a, b, d);
         w[3] = volumeOf(a, c, b);
-        return measure(w, 0);
+        setMeasure(w, 0);
     }
 
-    private weighHull(cell: number): number {
+    private weighHull(cell: number): void {
         const {w, volume: {info, hullRays}} = this;
         this.takeCorners(cell, 3);
         const isOutside = this.hull.weighTriangle(this.corners, hullRays, 9 * (cell - info.innerCellCount), w);
-        return isOutside ? measure(w, 0) : this.goInside();
+        if (isOutside) setMeasure(w, 0);
+        else this.goInside();
     }
 
     /** Cells of planes, lines and points. */
-    private weighFlat(cell: number): number {
+    private weighFlat(cell: number): void {
         const {w, corners, volume: {info: {dimension, innerCellCount, axis}, hullRays}} = this;
         const isInner = cell < innerCellCount;
         this.takeCorners(cell, dimension - (isInner ? 0 : 1));
         const ray = 9 * (cell - innerCellCount);
         if (dimension === Dimension.Plane) {
             if (isInner) return this.weighInPlane();
-            return weighEdge(corners, hullRays, ray, axis, w) ? measure(w, 0) : this.goInside();
+            return weighEdge(corners, hullRays, ray, axis, w) ? setMeasure(w, 0) : this.goInside();
         }
         if (dimension === Dimension.Line && isInner) {
             w.set([alongAxis(corners, 3, axis), -alongAxis(corners, 0, axis), 0, 0]);
-            return measure(w, 0);
+            return setMeasure(w, 0);
         }
         const isBeyond = isInner || corners[0] * hullRays[ray] + corners[1] * hullRays[ray + 1] +
                                     corners[2] * hullRays[ray + 2] <= 0;
         if (!isBeyond) return this.goInside();
-        w.set([1, 0, 0, 0]);
-        return 0;
+        w.set([1, 0, 0, 0, 0]);
     }
 
     /** Twice the areas of the position with the edges, seen along the axis. */
-    private weighInPlane(): number {
+    private weighInPlane(): void {
         const {w, corners: m, volume: {info: {axis}}} = this;
         const area = (i: number, j: number) => axis[0] * (m[i + 1] * m[j + 2] - m[i + 2] * m[j + 1]) +
                                                axis[1] * (m[i + 2] * m[j] - m[i] * m[j + 2]) +
                                                axis[2] * (m[i] * m[j + 1] - m[i + 1] * m[j]);
         w.set([area(3, 6), -area(0, 6), area(0, 3), 0]);
         const longest = Math.max(...[0, 3, 6].map(i => square(m[i], m[i + 1], m[i + 2])));
-        return measure(w, kSliverRounding * (longest * longest));
+        setMeasure(w, kSliverRounding * (longest * longest));
     }
 
     private takeCorners(cell: number, count: number): void {
@@ -168,9 +181,8 @@ export class CellWeights {
         }
     }
 
-    private goInside(): number {
-        this.w.set([0, 0, 0, -1]);
-        return -Infinity;
+    private goInside(): void {
+        this.w.set([0, 0, 0, -1, -Infinity]);
     }
 }
 
@@ -180,8 +192,8 @@ function alongAxis(corners: Float64Array, at: number, axis: Float64Array): numbe
     return corners[at] * axis[0] + corners[at + 1] * axis[1] + corners[at + 2] * axis[2];
 }
 
-function measure(w: Float64Array, rounding: number): number {
+function setMeasure(w: Float64Array, rounding: number): void {
     const sum = w[0] + w[2] + (w[1] + w[3]);
-    if (!(sum > 0) || !(sum * sum > rounding)) return -Infinity;
-    return Math.min(w[0], w[1], w[2], w[3]) / sum;
+    const hasVolume = sum > 0 && sum * sum > rounding;
+    w[4] = hasVolume ? Math.min(w[0], w[1], w[2], w[3]) / sum : -Infinity;
 }

@@ -6,6 +6,7 @@
 //     const [red, green, blue] = irradiance(light.sh, [0, 1, 0]);
 export type {BakedLight} from './baked_lights.js';
 export type {BatchOptions, BatchOutputs} from './batch.js';
+export type {Precision} from './blend.js';
 export {TetralightError} from './error.js';
 export type {ErrorCode} from './error.js';
 export type {LayerWeights} from './layers.js';
@@ -14,6 +15,6 @@ export {kNone} from './section_file.js';
 export {irradiance, kCoefficients, kPacked, packSh} from './sh.js';
 export type {Vector} from './sh.js';
 export {read, Volume} from './volume.js';
-export type {Layer, Light, Location} from './volume.js';
+export type {Layer, Light, Location, ReadOptions} from './volume.js';
 export {Dimension} from './volume_data.js';
 export type {VolumeData, VolumeInfo} from './volume_data.js';

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {BakedLight, readBakedLights} from './baked_lights.js';
 import {answerBatch, BatchOptions, BatchOutputs, locateOffSurface} from './batch.js';
-import {blendIrradiance, blendOcclusion, ProbeLight, readProbeLight} from './blend.js';
+import {blendIrradiance, blendOcclusion, Precision, ProbeLight, readProbeLight} from './blend.js';
+import {argumentError} from './error.js';
 import {changedWeights, LayerWeights, recombine} from './layers.js';
 import {Query} from './query.js';
 import {QueryOptions, readSettings} from './query_options.js';
@@ -35,14 +36,21 @@ export interface Layer {
     readonly weight: number;
 }
 
+export interface ReadOptions {
+    /** Which of its two copies of the light is read, if a file has both. 'full' by default. */
+    precision?: Precision;
+}
+
 /**
  * Opens a `.probes` file. An ordinary buffer is used in place and must not change; a shared or resizable one is copied.
  * Throws a `TetralightError` if any byte is wrong: its field is the section and the element.
  */
-export function read(data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer): Volume {
+export function read(data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer, options: ReadOptions = {}): Volume {
+    const {precision = 'full'} = options;
+    if (precision !== 'full' && precision !== 'half') throw argumentError('precision', `is "${precision}"`);
     const volume = readVolumeData(new SectionFile(kProbeFile, data));
     verify(volume);
-    return new Volume(volume);
+    return new Volume(volume, precision);
 }
 
 /** An open probe volume. */
@@ -52,9 +60,9 @@ export class Volume {
     private weights: number[];
 
     /** `data` must be verified. */
-    constructor(readonly data: VolumeData) {
+    constructor(readonly data: VolumeData, precision: Precision) {
         this.query = new Query(data);
-        this.probeLight = readProbeLight(data);
+        this.probeLight = readProbeLight(data, precision);
         this.weights = data.layers.map(layer => layer.weight);
     }
 

@@ -22,7 +22,6 @@ export class Walk {
     readonly weights = new Float64Array(4);
     private readonly at: CellWeights;
     private readonly seeds: SeedGrid;
-    private readonly before = new Float64Array(4);
 
     constructor(private readonly volume: VolumeData) {
         this.at = new CellWeights(volume);
@@ -33,7 +32,8 @@ export class Walk {
     locate(x: number, y: number, z: number, hint: number): number {
         const {at} = this;
         if (at.cellCount === 0 || !at.moveTo(x, y, z)) return this.fail();
-        const start = hint < at.cellCount ? hint : this.seedCell();
+        const index = hint >>> 0;  // any number is allowed
+        const start = index < at.cellCount ? index : this.seedCell();
         const found = this.walkFrom(start, kCellsNear);
         return found !== kNone ? found : this.locateAnyhow();
     }
@@ -60,7 +60,7 @@ export class Walk {
      * that returns to a cell goes in a circle, which a landmark that is replaced after 1, 2, 4 … steps finds (Brent 1980).
      */
     private walkFrom(start: number, cellsNear: number): number {
-        const {at, before, volume: {cells}} = this;
+        const {at, volume: {cells}} = this;
         const {w} = at;
         let cell = start;
         let landmark = kNone;
@@ -68,21 +68,18 @@ export class Walk {
         let previousMeasure = 0;
         for (let step = 1; cell !== landmark; ++step) {
             if ((step & step - 1) === 0) landmark = cell;
-            const measure = at.weigh(cell);
-            if (measure >= 0) return this.finish(cell, w);
+            if (at.contains(cell)) return this.finish(cell);
             const next = cells[8 * cell + 4 + mostNegative(w)];
             if (next === previous) {
                 // Each of two cells sends the walk to the other: on their common face that is rounding.
-                if (Math.max(measure, previousMeasure) < -kSettleTolerance) break;
-                return measure >= previousMeasure ? this.finish(cell, w) : this.finish(previous, before);
+                if (Math.max(w[4], previousMeasure) < -kSettleTolerance) break;
+                const nearer = w[4] >= previousMeasure ? cell : previous;
+                at.contains(nearer);
+                return this.finish(nearer);
             }
             if (next === kNone) break;
             previous = cell;
-            previousMeasure = measure;
-            before[0] = w[0];
-            before[1] = w[1];
-            before[2] = w[2];
-            before[3] = w[3];
+            previousMeasure = w[4];
             cell = next;
         }
         return this.searchNear(cell, cellsNear);
@@ -95,7 +92,7 @@ export class Walk {
         const draw = (count: number) => (random = random * 48271 % 2147483647) % count;
         let cell = start;
         for (let step = 0; step < kMostRandomSteps && cell !== kNone; ++step) {
-            if (at.weigh(cell) >= 0) return this.finish(cell, at.w);
+            if (at.contains(cell)) return this.finish(cell);
             const beyond = [0, 1, 2, 3].filter(i => at.w[i] < 0);
             const isLost = beyond.length === 0 || draw(kStray) === 0;
             cell = cells[8 * cell + 4 + (isLost ? draw(4) : beyond[draw(beyond.length)])];
@@ -110,9 +107,10 @@ export class Walk {
         let best = kNone;
         let bestMeasure = -kSettleTolerance;
         for (const cell of found) {
-            const measure = this.at.weigh(cell);
+            this.at.contains(cell);
+            const {measure} = this.at;
             if (measure >= bestMeasure && (best === kNone || measure > bestMeasure)) {
-                best = this.finish(cell, this.at.w);
+                best = this.finish(cell);
                 bestMeasure = measure;
             }
             if (bestMeasure >= 0) break;
@@ -129,10 +127,10 @@ export class Walk {
         let best = kNone;
         let bestMeasure = -Infinity;
         for (let cell = 0; cell < this.at.cellCount; ++cell) {
-            const measure = this.at.weigh(cell);
-            if (!(measure > bestMeasure)) continue;
-            bestMeasure = measure;
-            best = this.finish(cell, this.at.w);
+            this.at.contains(cell);
+            if (!(this.at.measure > bestMeasure)) continue;
+            bestMeasure = this.at.measure;
+            best = this.finish(cell);
         }
         return best !== kNone ? best : this.nearestCorner();
     }
@@ -154,9 +152,9 @@ export class Walk {
         return nearest;
     }
 
-    /** Weights of an answer, rounded to floats as files and other languages have them. */
-    private finish(cell: number, w: Float64Array): number {
-        const {weights} = this;
+    /** Takes the weights of the cell that was weighed last as the answer, rounded to floats as other languages have them. */
+    private finish(cell: number): number {
+        const {weights, at: {w}} = this;
         const a = Math.max(w[0], 0), b = Math.max(w[1], 0), c = Math.max(w[2], 0), d = Math.max(w[3], 0);
         const sum = a + c + (b + d);
         weights[0] = Math.fround(a / sum);
