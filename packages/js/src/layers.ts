@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that changes after the bake: the weighted sum of layers (docs/relighting.md).
 import type {ProbeLight} from './blend.js';
+import {kLargestCoefficient} from './checks.js';
 import {argumentError, TetralightError} from './error.js';
 import {kCoefficients} from './sh.js';
-import {kLargestCoefficient} from './verify.js';
 import type {VolumeData} from './volume_data.js';
 
 /** Weights by layer: its full name, or the part after the colon. */

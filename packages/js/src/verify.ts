@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the meaning of every number of a volume, so that queries need not: docs/file_format.md#opening.
+import {checkCount, checkEach, isUnit, kLargestCoefficient} from './checks.js';
 import {elementError, sectionError} from './error.js';
 import {checkLights} from './verify_lights.js';
 import {checkLayers} from './verify_layers.js';
@@ -10,9 +11,6 @@ import {checkMetadata, Dimension, kHealthSize, kNone, vertexCount, VolumeData} f
 /** No position is farther from the origin of the world, metres. */
 const kFarthestPosition = 1e18;
 
-/** No coefficient of light is larger: irradiance in every direction is finite then. */
-export const kLargestCoefficient = 1e37;
-
 export function verify(volume: VolumeData): void {
     checkCounts(volume);
     checkProbes(volume);
@@ -21,19 +19,6 @@ export function verify(volume: VolumeData): void {
     checkTables(volume);
     checkLights(volume);
     checkLayers(volume);
-}
-
-export function checkCount(section: string, count: number, expected: number, isOptional = true): void {
-    if (count === expected || (isOptional && count === 0)) return;
-    throw sectionError(section, `${count} elements instead of ${expected}`);
-}
-
-/** Throws for the first element of `size` values of which one is not good. */
-export function checkEach(section: string, values: ArrayLike<number>, size: number, what: string,
-                          isGood: (value: number) => boolean): void {
-    for (let i = 0; i < values.length; ++i) {
-        if (!isGood(values[i])) throw elementError(section, Math.floor(i / size), what);
-    }
 }
 
 const infoError = (what: string) => sectionError('info', what);
@@ -90,10 +75,6 @@ function checkRays({hullRays, info}: VolumeData): void {
         }
     }
 }
-
-const square = (v: ArrayLike<number>) => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-
-export const isUnit = (v: ArrayLike<number>, tolerance: number) => Math.abs(square(v) - 1) < tolerance;
 
 const isNear = (v: Float64Array) => v.every(x => Math.abs(x) <= kFarthestPosition);
 

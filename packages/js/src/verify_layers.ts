@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import {checkCount, checkEach, kLargestCoefficient} from './checks.js';
 import {elementError, sectionError} from './error.js';
-import {checkCount, checkEach, kLargestCoefficient} from './verify.js';
 import {kLightSize, kNone, VolumeData} from './volume_data.js';
 
 // Products of both, which relighting adds, are finite.

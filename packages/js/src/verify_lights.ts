@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import {checkCount, isUnit} from './checks.js';
 import {elementError} from './error.js';
-import {checkCount, isUnit} from './verify.js';
 import {kLightSize, VolumeData} from './volume_data.js';
 
 enum Type { Directional, Point, Spot, Rectangle, Disc }
