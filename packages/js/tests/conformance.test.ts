@@ -42,10 +42,12 @@ interface Vectors {
     cases: {options: Options; answers: Answer[]}[];
 }
 
-const numberOf = (value: Number) => typeof value === 'number' ? value : {'nan': NaN, 'inf': Infinity, '-inf': -Infinity}[value];
+/** Decimals stand for 32-bit floats. */
+const floatOf = (value: Number) =>
+    typeof value === 'number' ? Math.fround(value) : {'nan': NaN, 'inf': Infinity, '-inf': -Infinity}[value];
 
 function open(name: string, options: Options): Volume {
-    const volume = read(readFileSync(join(kVectors, `${name}.probes`)), {precision: options.precision});
+    const volume = read(readFileSync(join(kVectors, `${name}.probes`)), {precision: options.precision ?? 'half'});
     const weights = options.layer_weights;
     if (weights) volume.setWeights(Object.fromEntries(volume.layers.map((layer, i) => [layer.name, weights[i]])));
     return volume;
@@ -54,7 +56,7 @@ function open(name: string, options: Options): Volume {
 function queryOptions(options: Options, answer: Answer): QueryOptions {
     const all = {outside: options.outside, fadeDistance: options.fade_distance, walls: options.walls,
                  renderingLayers: options.rendering_layers, radius: options.radius,
-                 normal: options.normal_offset === undefined ? undefined : answer.normal,
+                 normal: options.normal_offset === undefined ? undefined : answer.normal?.map(floatOf),
                  normalOffset: options.normal_offset};
     return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
 }
@@ -70,22 +72,26 @@ function weightError(ours: {probes: number[]; weights: number[]}, probes: number
 
 const largest = (a: ArrayLike<number>, b: readonly number[]) => Math.max(...b.map((value, i) => Math.abs(value - a[i])));
 
-const names = existsSync(kVectors) ? readdirSync(kVectors).filter(file => file.endsWith('.json')).map(file => file.slice(0, -5))
-                                   : [];
+const files = existsSync(kVectors) ? readdirSync(kVectors) : [];
+const names = files.filter(file => file.endsWith('.json')).map(file => file.slice(0, -5));
 
 describe.skipIf(names.length === 0)('conformance', () => {
     test.each(names)('%s', name => {
-        const {largest_light: unit, normals, cases} = JSON.parse(readFileSync(join(kVectors, `${name}.json`), 'utf8')) as Vectors;
+        const text = readFileSync(join(kVectors, `${name}.json`), 'utf8');
+        const {largest_light: unit, normals, cases} = JSON.parse(text) as Vectors;
         for (const {options, answers} of cases) {
             const volume = open(name, options);
+            // Relit light of halves is rounded to halves again by the library, and not by this package.
+            const isRounded = options.layer_weights && options.precision !== 'full' && volume.data.compact.length > 0;
+            const tolerance = unit * (isRounded ? 2 ** -11 : 1e-5);
             for (const answer of answers) {
                 const where = `${answer.kind} ${JSON.stringify(answer.position)} ${JSON.stringify(options)}`;
-                const position = answer.position.map(numberOf);
+                const position = answer.position.map(floatOf);
                 const light = volume.light(position, queryOptions(options, answer));
-                expect(largest(light.sh, answer.irradiance_sh.flat()), where).toBeLessThanOrEqual(1e-5 * unit);
+                expect(largest(light.sh, answer.irradiance_sh.flat()), where).toBeLessThanOrEqual(tolerance);
                 normals.forEach((normal, i) => {
                     const error = largest(irradiance(light.sh, normal), answer.irradiance[i]);
-                    expect(error, where).toBeLessThanOrEqual(1e-5 * unit);
+                    expect(error, where).toBeLessThanOrEqual(tolerance);
                 });
                 expect(largest(light.occlusion, answer.occlusion), where).toBeLessThanOrEqual(2e-5);
                 expect(Math.abs(light.ambient - answer.ambient), where).toBeLessThanOrEqual(2e-5);
