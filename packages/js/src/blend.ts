@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light of probes, and its weighted sums.
+import {floatOfHalf} from './half.js';
 import {kCoefficients} from './sh.js';
 import {kNone, VolumeData} from './volume_data.js';
 
@@ -25,14 +26,6 @@ export function readProbeLight(volume: VolumeData, precision: Precision): ProbeL
         for (let k = 0; k < 4; ++k) light.occlusion[4 * i + k] = floatOfHalf(compact[32 * i + 27 + k]);
     }
     return light;
-}
-
-/** The value of a binary16 that is finite. */
-function floatOfHalf(half: number): number {
-    const exponent = half >> 10 & 31;
-    const fraction = half & 1023;
-    const size = exponent === 0 ? fraction * 2 ** -24 : (1024 + fraction) * 2 ** (exponent - 25);
-    return half & 0x8000 ? -size : size;
 }
 
 /** Writes Σ weight · light of the cell's vertices + ambient · ambient light: the 27 numbers from `to` on. */

@@ -21,3 +21,8 @@ export function checkEach(section: string, values: ArrayLike<number>, size: numb
 const square = (v: ArrayLike<number>) => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 
 export const isUnit = (v: ArrayLike<number>, tolerance: number) => Math.abs(square(v) - 1) < tolerance;
+
+/** Of normal floats below 1e38. */
+export function isPowerOfTwo(scale: number): boolean {
+    return scale > 0 && scale < 1e38 && Number.isInteger(Math.log2(scale)) && 2 ** Math.log2(scale) === scale;
+}

@@ -10,6 +10,8 @@ export type {Precision} from './blend.js';
 export {TetralightError} from './error.js';
 export type {ErrorCode} from './error.js';
 export type {LayerWeights} from './layers.js';
+export {lightmapIrradiance, readLightmaps} from './lightmaps.js';
+export type {LightmapLayer, LightmapMesh, LightmapRectangle, Lightmaps} from './lightmaps.js';
 export type {Outside, QueryOptions} from './query_options.js';
 export {kNone} from './section_file.js';
 export {irradiance, kCoefficients, kPacked, packSh} from './sh.js';

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the meaning of every number of a volume, so that queries need not: docs/file_format.md#opening.
-import {checkCount, checkEach, isUnit, kLargestCoefficient} from './checks.js';
+import {checkCount, checkEach, isPowerOfTwo, isUnit, kLargestCoefficient} from './checks.js';
 import {elementError, sectionError} from './error.js';
+import {isFiniteHalf} from './half.js';
+import {checkMetadata} from './section_text.js';
 import {checkLights} from './verify_lights.js';
 import {checkLayers} from './verify_layers.js';
 import {checkSeedGrid} from './verify_seed_grid.js';
 import {checkVisibility} from './verify_visibility.js';
-import {checkMetadata, Dimension, kHealthSize, kNone, vertexCount, VolumeData} from './volume_data.js';
+import {Dimension, kHealthSize, kNone, vertexCount, VolumeData} from './volume_data.js';
 
 /** No position is farther from the origin of the world, metres. */
 const kFarthestPosition = 1e18;
@@ -51,7 +53,7 @@ function checkProbes(v: VolumeData): void {
     checkEach('positions', v.positions, 3, 'is not finite', Number.isFinite);
     checkEach('exact_positions', v.exactPositions, 3, 'is not finite', Number.isFinite);
     checkEach('irradiance', v.irradiance, 27, 'is not finite, or above 1e37', x => Math.abs(x) <= kLargestCoefficient);
-    checkEach('compact', v.compact, 32, 'is not finite', half => (half & 0x7c00) !== 0x7c00);
+    checkEach('compact', v.compact, 32, 'is not finite', isFiniteHalf);
     checkEach('occlusion', v.occlusion, 4, 'is not in [0, 1]', isFraction);
     checkEach('validity', v.validity, 1, 'is not in [0, 1]', isFraction);
     checkEach('rendering_layers', v.renderingLayers, 1, 'is on no layer', layers => layers !== 0);
@@ -99,10 +101,6 @@ function checkInfo({info, positions, compact}: VolumeData): void {
         throw infoError('the cube of the seeds is not a cube');
     }
     checkExtent(info.extent, positions);
-}
-
-function isPowerOfTwo(scale: number): boolean {
-    return scale > 0 && scale < 1e38 && Number.isInteger(Math.log2(scale)) && 2 ** Math.log2(scale) === scale;
 }
 
 /** From `extent` follows which positions are far away: too small a one would move them. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {checkCount, checkEach, kLargestCoefficient} from './checks.js';
 import {elementError, sectionError} from './error.js';
+import {checkDistinctNames} from './section_text.js';
 import {kLightSize, kNone, VolumeData} from './volume_data.js';
 
 // Products of both, which relighting adds, are finite.
@@ -12,8 +13,7 @@ const kWindows = 3;  // of dering
 /** Light that can change after the bake: layers, transfer, lights and their channels. */
 export function checkLayers(v: VolumeData): void {
     checkCounts(v);
-    const twice = v.layerNames.find((name, i) => v.layerNames.indexOf(name) !== i);
-    if (twice !== undefined) throw sectionError('layer_names', `name "${twice}" occurs twice`);
+    checkDistinctNames('layer_names', v.layerNames);
     checkStates(v);
     const lights = v.lights.byteLength / kLightSize;
     checkEach('occlusion_lights', v.occlusionLights, 4, 'is out of range', light => light < lights || light === kNone);

@@ -2,10 +2,10 @@
 // Files that must not be read, and how others are.
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
-import {read, TetralightError} from '../src/index.js';
-import {xxh3} from '../src/xxh3.js';
+import {read} from '../src/index.js';
 import {Folder, kCommand, kCourtyard} from './command.js';
 import {makeRandom} from './random.js';
+import {Entry, errorOf as errorOfCall, sectionsOf, sign} from './sections.js';
 import {kSets} from './sets.js';
 
 const folder = new Folder();
@@ -13,42 +13,7 @@ afterAll(() => folder.remove());
 
 const hasCommand = kCommand !== '' && kCourtyard !== '';
 
-/** The error of a file; undefined if it can be read. */
-function errorOf(bytes: Uint8Array): TetralightError | undefined {
-    try {
-        read(bytes);
-    } catch (error) {
-        if (error instanceof TetralightError) return error;
-        throw error;
-    }
-    return undefined;
-}
-
-interface Entry {
-    name: string;
-    at: number;  // of the entry
-    offset: number;
-    size: number;
-}
-
-function sectionsOf(bytes: Uint8Array): Entry[] {
-    const view = new DataView(bytes.buffer, bytes.byteOffset);
-    return Array.from({length: view.getUint32(12, true)}, (_, i) => {
-        const at = 64 + 64 * i;
-        const name = new TextDecoder().decode(bytes.subarray(at, at + 24)).replace(/\0+$/, '');
-        const size = Number(view.getBigUint64(at + 32, true) * view.getBigUint64(at + 40, true));
-        return {name, at, offset: Number(view.getBigUint64(at + 24, true)), size};
-    });
-}
-
-/** Makes checksums right again after bytes of a section changed. */
-function sign(bytes: Uint8Array, {at, offset, size}: Entry): void {
-    const view = new DataView(bytes.buffer, bytes.byteOffset);
-    view.setBigUint64(at + 48, xxh3(bytes.subarray(offset, offset + size)), true);
-    view.setBigUint64(24, 0n, true);
-    const end = 64 + 64 * view.getUint32(12, true);
-    view.setBigUint64(24, xxh3(bytes.subarray(64, end), xxh3(bytes.subarray(0, 64))), true);
-}
+const errorOf = (bytes: Uint8Array) => errorOfCall(() => read(bytes));
 
 describe.skipIf(!hasCommand)('a file', () => {
     let bytes: Uint8Array;
