@@ -3,7 +3,7 @@
 import {argumentError, sectionError} from './error.js';
 import {floatOfHalf} from './half.js';
 import {changedWeights, LayerWeights} from './layers.js';
-import {SectionFile} from './section_file.js';
+import {FileData, SectionFile} from './section_file.js';
 import {readNames} from './section_text.js';
 import {verifyLightmaps} from './verify_lightmaps.js';
 
@@ -78,7 +78,7 @@ export interface Lightmaps {
 }
 
 /** Opens a `.lightmaps` file, as `read` opens a `.probes` file. */
-export function readLightmaps(data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer): Lightmaps {
+export function readLightmaps(data: FileData): Lightmaps {
     const file = new SectionFile(kLightmapFile, data);
     const {info, words} = readInfo(file);
     const rectangles = file.words('rectangles', 12);

@@ -32,7 +32,7 @@ export class SectionFile {
     readonly sections = new Map<string, Section>();
     private readonly bytes: Uint8Array;
 
-    constructor(kind: FileKind, data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer) {
+    constructor(kind: FileKind, data: FileData) {
         this.bytes = inPlaceBytes(data);
         for (const section of readTable(kind, this.bytes)) this.sections.set(section.name, section);
         verifyBytes(this.bytes, [...this.sections.values()]);
@@ -65,12 +65,7 @@ export class SectionFile {
 
     /** Text in UTF-8. */
     text(name: string): string {
-        try {
-            return new TextDecoder('utf-8', {fatal: true, ignoreBOM: true}).decode(this.octets(name, 1));
-        } catch (error) {
-            if (error instanceof TetralightError) throw error;
-            throw sectionError(name, 'is not UTF-8');
-        }
+        return decodeText(name, this.octets(name, 1));
     }
 
     /** A section in place: `each` values an element. Empty if the file does not have it. */
@@ -88,13 +83,25 @@ export class SectionFile {
     }
 }
 
+/** Bytes that must be UTF-8. */
+export function decodeText(section: string, bytes: Uint8Array): string {
+    try {
+        return new TextDecoder('utf-8', {fatal: true, ignoreBOM: true}).decode(bytes);
+    } catch {
+        throw sectionError(section, 'is not UTF-8');
+    }
+}
+
 interface ArrayType<T> {
     readonly BYTES_PER_ELEMENT: number;
     new(buffer: ArrayBuffer, offset: number, length: number): T;
 }
 
+/** Files, as readers take them. */
+export type FileData = ArrayBuffer | ArrayBufferView | SharedArrayBuffer;
+
 /** The bytes where they are; a copy if others could change their number or content meanwhile, or if not aligned. */
-function inPlaceBytes(data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer): Uint8Array {
+export function inPlaceBytes(data: FileData): Uint8Array {
     if (new Uint8Array(new Uint32Array([1]).buffer)[0] !== 1) {
         throw new TetralightError('unsupported', '', 'files are little-endian, and this machine is not');
     }
@@ -146,7 +153,7 @@ function headerChecksum(bytes: Uint8Array, count: number): bigint {
 }
 
 /** A size of 64 bits. Those above 2^53 lose digits, but not that they are too large. */
-function readSize(view: DataView, at: number): number {
+export function readSize(view: DataView, at: number): number {
     return view.getUint32(at, true) + view.getUint32(at + 4, true) * 0x100000000;
 }
 

@@ -8,7 +8,10 @@ const isControl = (code: number) => code < 0x20 || (code >= 0x7f && code < 0xa0)
 
 /** Names that are each ended by a line break. */
 export function readNames(file: SectionFile, section: string): string[] {
-    const text = file.text(section);
+    return splitNames(section, file.text(section));
+}
+
+export function splitNames(section: string, text: string): string[] {
     if (text !== '' && !text.endsWith('\n')) throw sectionError(section, 'the last name has no line break at its end');
     const names = text.split('\n').slice(0, -1);
     names.forEach((name, i) => {

@@ -6,7 +6,7 @@ import {argumentError} from './error.js';
 import {changedWeights, LayerWeights, recombine} from './layers.js';
 import {Query} from './query.js';
 import {QueryOptions, readSettings} from './query_options.js';
-import {SectionFile} from './section_file.js';
+import {FileData, SectionFile} from './section_file.js';
 import {kCoefficients, Vector} from './sh.js';
 import {verify} from './verify.js';
 import {kNone, kProbeFile, readVolumeData, VolumeData} from './volume_data.js';
@@ -45,7 +45,7 @@ export interface ReadOptions {
  * Opens a `.probes` file. An ordinary buffer is used in place and must not change; a shared or resizable one is copied.
  * Throws a `TetralightError` if any byte is wrong: its field is the section and the element.
  */
-export function read(data: ArrayBuffer | ArrayBufferView | SharedArrayBuffer, options: ReadOptions = {}): Volume {
+export function read(data: FileData, options: ReadOptions = {}): Volume {
     const {precision = 'full'} = options;
     if (precision !== 'full' && precision !== 'half') throw argumentError('precision', `is "${precision}"`);
     const volume = readVolumeData(new SectionFile(kProbeFile, data));
