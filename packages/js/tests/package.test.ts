@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What users install.
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {pathToFileURL} from 'node:url';
 import {gzipSync} from 'node:zlib';
 
 import {build, Rollup, transformWithEsbuild} from 'vite';
-import {expect, test} from 'vitest';
+import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 const kRoot = join(__dirname, '..');
 
@@ -30,15 +29,33 @@ test('the package has no dependencies and runs nothing when it is installed', ()
     expect(Object.keys(json.scripts).filter(name => /install|prepare|postpack/.test(name))).toEqual([]);
 });
 
-test('Node imports the built package as it is', () => {
+describe('the packed package, installed into an empty project', () => {
     const folder = mkdtempSync(join(tmpdir(), 'tetralight-'));
-    try {
-        const tsc = join(kRoot, 'node_modules/typescript/bin/tsc');
-        execFileSync(process.execPath, [tsc, '--project', 'tsconfig.build.json', '--outDir', folder], {cwd: kRoot});
-        const script = `import('${pathToFileURL(join(folder, 'index.js')).href}').then(m => console.log(Object.keys(m).join()))`;
-        const names = execFileSync(process.execPath, ['--input-type=module', '--eval', script], {encoding: 'utf8'});
-        expect(names.trim().split(',')).toContain('read');
-    } finally {
-        rmSync(folder, {recursive: true, force: true});
-    }
+    const run = (command: string, args: string[], cwd: string) => execFileSync(command, args, {cwd, encoding: 'utf8'});
+    beforeAll(() => {
+        const packed = run('npm', ['pack', '--silent', '--pack-destination', folder], kRoot).trim().split('\n').pop() ?? '';
+        writeFileSync(join(folder, 'package.json'), '{"name": "game", "private": true, "type": "module"}');
+        run('npm', ['install', '--offline', '--no-audit', '--no-fund', '--silent', `./${packed}`], folder);
+    });
+    afterAll(() => rmSync(folder, {recursive: true, force: true}));
+
+    test('has the files that it needs alone', () => {
+        const files = readdirSync(join(folder, 'node_modules/tetralight')).sort();
+        expect(files).toEqual(['LICENSE', 'README.md', 'dist', 'package.json']);
+        expect(readdirSync(join(folder, 'node_modules')).filter(name => !name.startsWith('.'))).toEqual(['tetralight']);
+    });
+
+    test('is imported by Node', () => {
+        writeFileSync(join(folder, 'names.js'), "import * as all from 'tetralight'; console.log(Object.keys(all).join());");
+        expect(run(process.execPath, ['names.js'], folder).trim().split(',')).toContain('read');
+    });
+
+    test('is bundled by Vite, without what the page does not use', async () => {
+        writeFileSync(join(folder, 'main.js'), "import {irradiance} from 'tetralight'; console.log(irradiance([], [0, 1, 0]));");
+        writeFileSync(join(folder, 'index.html'), '<script type="module" src="main.js"></script>');
+        const built = await build({root: folder, configFile: false, logLevel: 'error', build: {write: false}});
+        const [chunk] = (built as Rollup.RollupOutput).output;
+        expect(chunk.type).toBe('chunk');
+        expect((chunk as Rollup.OutputChunk).code.length).toBeLessThan(3000);
+    });
 });
