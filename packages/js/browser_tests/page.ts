@@ -90,6 +90,48 @@ function shadeInstances(probes: ProbeVolume, kind: Kind, squares: readonly Squar
     return colors;
 }
 
+/** All squares as instances of a batch, after others were deleted. */
+function shadeBatch(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): number[][] {
+    const mesh = new three.BatchedMesh(2 * squares.length, 8, 12, makeMaterial(kind));
+    const geometry = mesh.addGeometry(kGeometry);
+    const instances = squares.flatMap(square => [square, square].map(each => {
+        const instance = mesh.addInstance(geometry);
+        mesh.setMatrixAt(instance, placeOf(each));
+        return instance;
+    }));
+    instances.forEach((instance, i) => { if (i % 2 === 0) mesh.deleteInstance(instance); });
+    const scene = new three.Scene().add(mesh);
+    probes.add(scene);
+    probes.update();
+    const colors = squares.map(({position, normal}) => colorOf(scene, cameraAt(vector(position), vector(normal))));
+    probes.remove(scene);
+    return colors;
+}
+
+/** A square of which a bone moves all corners, in place of the mesh. */
+function shadeSkin(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): number[][] {
+    const geometry = kGeometry.clone();
+    const count = geometry.attributes.position.count;
+    geometry.setAttribute('skinIndex', new three.Uint16BufferAttribute(new Uint16Array(4 * count), 4));
+    const weights = new Float32Array(4 * count).map((_, i) => i % 4 === 0 ? 1 : 0);
+    geometry.setAttribute('skinWeight', new three.Float32BufferAttribute(weights, 4));
+    const mesh = new three.SkinnedMesh(geometry, makeMaterial(kind));
+    const bone = new three.Bone();
+    mesh.add(bone);
+    mesh.bind(new three.Skeleton([bone]));
+    const scene = new three.Scene().add(mesh);
+    probes.add(scene);
+    const colors = squares.map(square => {
+        mesh.matrix.identity().decompose(mesh.position, mesh.quaternion, mesh.scale);
+        mesh.applyMatrix4(placeOf(square));
+        scene.updateMatrixWorld();
+        probes.update();
+        return colorOf(scene, cameraAt(vector(square.position), vector(square.normal)));
+    });
+    probes.remove(scene);
+    return colors;
+}
+
 /** The picture of one square before and after the layers of the volume change. */
 function dim(probes: ProbeVolume, square: Square, weights: Record<string, number>): number[][] {
     const mesh = new three.Mesh(kGeometry, makeMaterial('standard'));
@@ -111,5 +153,5 @@ function open(base64: string): ProbeVolume {
     return new ProbeVolume(read(Uint8Array.from(atob(base64), c => c.charCodeAt(0))));
 }
 
-export const page = {dim, open, shadeInstances, shadeMeshes};
+export const page = {dim, open, batch: shadeBatch, instances: shadeInstances, meshes: shadeMeshes, skin: shadeSkin};
 Object.assign(window, {page});

@@ -75,20 +75,14 @@ describe.skipIf(kCommand === '' || kCourtyard === '' || !existsSync(kChromium))(
         });
     }
 
-    test.each(['standard', 'physical', 'lambert', 'phong'] as Kind[])('objects of %s material have the light of probes',
-                                                                      async kind => {
-        const colors = await page.evaluate(([bytes, given, all]) => {
+    test.each([
+        ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
+        ['instances', 'standard'], ['instances', 'phong'], ['batch', 'lambert'], ['skin', 'lambert'],
+    ] as ['meshes' | 'instances' | 'batch' | 'skin', Kind][])('%s of %s material have the light of probes', async (way, kind) => {
+        const colors = await page.evaluate(([bytes, shade, given, all]) => {
             const {page: tools} = window as unknown as Window;
-            return tools.shadeMeshes(tools.open(bytes), given, all);
-        }, [file, kind, squares] as const);
-        compare(kind, colors);
-    });
-
-    test.each(['standard', 'phong'] as Kind[])('instances of %s material have the light of probes', async kind => {
-        const colors = await page.evaluate(([bytes, given, all]) => {
-            const {page: tools} = window as unknown as Window;
-            return tools.shadeInstances(tools.open(bytes), given, all);
-        }, [file, kind, squares] as const);
+            return tools[shade](tools.open(bytes), given, all);
+        }, [file, way, kind, squares] as const);
         compare(kind, colors);
     });
 

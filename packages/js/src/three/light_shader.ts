@@ -33,7 +33,12 @@ const kFromVaryings = kVaryings + irradianceFunction(i => `vTetralightSh${i}`);
 // The texels of an instance follow each other in one row.
 const kReadTexture = `uniform highp sampler2D tetralightTexture;
 vec4 tetralightTexel(int i) {
-    int place = 7 * gl_InstanceID + i;
+    #ifdef USE_BATCHING
+        int instance = int(getIndirectIndex(gl_DrawID));
+    #else
+        int instance = gl_InstanceID;
+    #endif
+    int place = 7 * instance + i;
     int width = textureSize(tetralightTexture, 0).x;
     return texelFetch(tetralightTexture, ivec2(place % width, place / width), 0);
 }
