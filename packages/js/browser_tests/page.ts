@@ -3,7 +3,7 @@
 import * as three from 'three';
 
 import {read} from '../src/index.js';
-import {ProbeVolume} from '../src/three/index.js';
+import {ProbeVolume, toLightProbeGrid} from '../src/three/index.js';
 
 export type Kind = 'standard' | 'physical' | 'lambert' | 'phong';
 
@@ -23,9 +23,9 @@ function makeMaterial(kind: Kind): three.Material {
     }
 }
 
-/** A camera that sees nothing but the square at a position, along its normal. */
+/** A camera that sees nothing but the middle of the square at a position, along its normal. */
 function cameraAt(position: three.Vector3, normal: three.Vector3): three.Camera {
-    const camera = new three.OrthographicCamera(-0.2, 0.2, 0.2, -0.2, 0.01, 2);
+    const camera = new three.OrthographicCamera(-0.01, 0.01, 0.01, -0.01, 0.01, 2);
     camera.position.copy(position).add(normal);
     camera.up.set(normal.z, normal.x, normal.y);
     camera.lookAt(position);
@@ -149,9 +149,28 @@ function dim(probes: ProbeVolume, square: Square, weights: Record<string, number
     return [before, after];
 }
 
+/** Squares lit by the grid of three.js in a box. */
+function grid({volume}: ProbeVolume, squares: readonly Square[], low: readonly number[], high: readonly number[],
+              resolution: readonly [number, number, number]): number[][] {
+    const scene = new three.Scene();
+    const light = toLightProbeGrid(volume, new three.Box3(vector(low), vector(high)), resolution);
+    scene.add(light);
+    const material = makeMaterial('lambert');
+    const colors = squares.map(square => {
+        const mesh = new three.Mesh(kGeometry, material);
+        mesh.applyMatrix4(placeOf(square));
+        scene.add(mesh);
+        const color = colorOf(scene, cameraAt(vector(square.position), vector(square.normal)));
+        scene.remove(mesh);
+        return color;
+    });
+    light.dispose();
+    return colors;
+}
+
 function open(base64: string): ProbeVolume {
     return new ProbeVolume(read(Uint8Array.from(atob(base64), c => c.charCodeAt(0))));
 }
 
-export const page = {dim, open, batch: shadeBatch, instances: shadeInstances, meshes: shadeMeshes, skin: shadeSkin};
+export const page = {dim, grid, open, batch: shadeBatch, instances: shadeInstances, meshes: shadeMeshes, skin: shadeSkin};
 Object.assign(window, {page});
