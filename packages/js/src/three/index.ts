@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
+export {toLightProbeGrid, VolumeGrid} from './light_probe_grid.js';
+export {ProbeVolume} from './probe_volume.js';
+export type {ProbeVolumeOptions} from './probe_volume.js';

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of a volume as the grid that the WebGL renderer of three.js reads (LightProbeGridWebGL, three r187).
+import * as three from 'three';
+
+import type {QueryOptions} from '../query_options.js';
+import {kCoefficients} from '../sh.js';
+import type {Volume} from '../volume.js';
+
+/** RGBA texels of the 27 coefficients of a probe. */
+const kTexels = 7;
+
+/** What the convolution with the cosine multiplied each coefficient by. */
+const kCosine = [0, 1, 1, 1, 2, 2, 2, 2, 2].map(band => [Math.PI, 2 * Math.PI / 3, Math.PI / 4][band]);
+
+/** A light that the renderer takes as a grid of probes. It lights everything in its box that receives light. */
+export class VolumeGrid extends three.Light {
+    readonly isLightProbeGrid = true;
+    readonly boundingBox = new three.Box3();
+    readonly resolution = new three.Vector3();
+    /** Where grids overlap, that of the highest priority counts. */
+    priority = 0;
+    texture: three.Data3DTexture | null = null;
+
+    override dispose(): void {
+        this.texture?.dispose();
+        super.dispose();
+    }
+}
+
+/**
+ * The light at the centers of nx × ny × nz cells of a world box. In the grid light passes through walls that are thinner
+ * than its cells, and the box has sides along the axes of the world.
+ */
+export function toLightProbeGrid(volume: Volume, box: three.Box3, resolution: readonly [number, number, number],
+                                 options: Pick<QueryOptions, 'outside' | 'fadeDistance' | 'walls'> = {}): VolumeGrid {
+    const [nx, ny, nz] = resolution;
+    const size = box.getSize(new three.Vector3());
+    const positions = new Float32Array(3 * nx * ny * nz);
+    let at = 0;
+    for (let z = 0; z < nz; ++z) {
+        for (let y = 0; y < ny; ++y) {
+            for (let x = 0; x < nx; ++x) {
+                positions[at++] = box.min.x + (x + 0.5) * size.x / nx;
+                positions[at++] = box.min.y + (y + 0.5) * size.y / ny;
+                positions[at++] = box.min.z + (z + 0.5) * size.z / nz;
+            }
+        }
+    }
+    const sh = new Float32Array(kCoefficients * nx * ny * nz);
+    volume.batch(positions, {sh}, options);
+    const grid = new VolumeGrid();
+    grid.boundingBox.copy(box);
+    grid.resolution.set(nx, ny, nz);
+    grid.texture = makeTexture(sh, nx, ny, nz);
+    return grid;
+}
+
+/** Seven volumes along z, each with a copy of its first and of its last slice beside them. */
+function makeTexture(sh: Float32Array, nx: number, ny: number, nz: number): three.Data3DTexture {
+    const slices = nz + 2;
+    const each = nx * ny;
+    const texels = new Float32Array(4 * each * kTexels * slices);
+    for (let texel = 0; texel < kTexels; ++texel) {
+        for (let slice = 0; slice < slices; ++slice) {
+            const z = Math.min(Math.max(slice - 1, 0), nz - 1);
+            for (let i = 0; i < each; ++i) {
+                const from = kCoefficients * (z * each + i);
+                const to = 4 * ((texel * slices + slice) * each + i);
+                for (let k = 4 * texel; k < Math.min(4 * texel + 4, kCoefficients); ++k) {
+                    texels[to + k - 4 * texel] = sh[from + k] / kCosine[Math.floor(k / 3)];
+                }
+            }
+        }
+    }
+    const texture = new three.Data3DTexture(texels, nx, ny, kTexels * slices);
+    texture.type = three.FloatType;
+    texture.minFilter = texture.magFilter = three.LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
+}

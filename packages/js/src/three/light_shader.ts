@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds the light of probes to the materials of three.js: to the irradiance that their shaders sum.
+import type * as three from 'three';
+
+/** Materials whose shaders sum irradiance: standard, physical, Lambert, Phong and toon. */
+export function isLit(material: three.Material): boolean {
+    return ['MeshStandardMaterial', 'MeshPhysicalMaterial', 'MeshLambertMaterial', 'MeshPhongMaterial', 'MeshToonMaterial']
+        .includes(material.type);
+}
+
+/** Where the seven vec4 of `packSh` come from: a uniform of the material, or a texture with those of all instances. */
+export type LightSource = {sh: Float32Array} | {texture: three.DataTexture};
+
+const kVectors = [0, 1, 2, 3, 4, 5, 6];
+
+/** Irradiance on a normal in view space. `sh` names one of the seven vectors. */
+const irradianceFunction = (sh: (i: number) => string) => `
+vec3 tetralightIrradiance(vec3 viewNormal) {
+    vec3 n = normalize((vec4(viewNormal, 0.0) * viewMatrix).xyz);
+    vec4 linear = vec4(n, 1.0);
+    vec4 quadratic = vec4(n.x * n.y, n.y * n.z, n.z * n.z, n.z * n.x);
+    vec3 sum = vec3(dot(${sh(0)}, linear) + dot(${sh(3)}, quadratic), dot(${sh(1)}, linear) + dot(${sh(4)}, quadratic),
+                    dot(${sh(2)}, linear) + dot(${sh(5)}, quadratic)) + ${sh(6)}.rgb * (n.x * n.x - n.y * n.y);
+    return max(PI * sum, vec3(0.0));
+}
+`;
+
+const kFromUniform = `uniform vec4 tetralightSh[7];\n${irradianceFunction(i => `tetralightSh[${i}]`)}`;
+
+const kVaryings = kVectors.map(i => `flat varying vec4 vTetralightSh${i};\n`).join('');
+const kFromVaryings = kVaryings + irradianceFunction(i => `vTetralightSh${i}`);
+
+// The texels of an instance follow each other in one row.
+const kReadTexture = `uniform highp sampler2D tetralightTexture;
+vec4 tetralightTexel(int i) {
+    #ifdef USE_BATCHING
+        int instance = int(getIndirectIndex(gl_DrawID));
+    #else
+        int instance = gl_InstanceID;
+    #endif
+    int place = 7 * instance + i;
+    int width = textureSize(tetralightTexture, 0).x;
+    return texelFetch(tetralightTexture, ivec2(place % width, place / width), 0);
+}
+`;
+const kCopyTexels = kVectors.map(i => `    vTetralightSh${i} = tetralightTexel(${i});\n`).join('');
+
+/** A copy of a material that is lit from `source`, too. What it did before it compiled stays. */
+export function litCopy(material: three.Material, source: LightSource): three.Material {
+    const copy = material.clone();
+    const kind = 'sh' in source ? 'uniform' : 'texture';
+    copy.onBeforeCompile = (shader, renderer) => {
+        material.onBeforeCompile.call(copy, shader, renderer);
+        if ('sh' in source) shader.uniforms.tetralightSh = {value: source.sh};
+        else shader.uniforms.tetralightTexture = {value: source.texture};
+        patch(shader, kind);
+    };
+    copy.customProgramCacheKey = () => `${material.customProgramCacheKey()} tetralight ${kind}`;
+    return copy;
+}
+
+function patch(shader: {vertexShader: string; fragmentShader: string}, kind: 'uniform' | 'texture'): void {
+    shader.fragmentShader = shader.fragmentShader
+        .replace('void main() {', `${kind === 'uniform' ? kFromUniform : kFromVaryings}void main() {`)
+        .replace('#include <lights_fragment_begin>',
+                 '#include <lights_fragment_begin>\n    irradiance += tetralightIrradiance(geometryNormal);');
+    if (kind === 'uniform') return;
+    shader.vertexShader = shader.vertexShader
+        .replace('void main() {', `${kVaryings}${kReadTexture}void main() {\n${kCopyTexels}`);
+}
