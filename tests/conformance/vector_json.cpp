@@ -52,9 +52,11 @@ std::string options_text(const VectorOptions& options) {
     const auto add = [&](bool is_set, const std::string& name, const std::string& value) {
         if (is_set) members.push_back(member(name, value));
     };
-    const auto& [precision, outside, receiver, normal_offset, layer_weights] = options;
-    add(precision != standard.precision, "precision",
-        quoted(kPrecisions[static_cast<size_t>(precision)]));
+    const OutsideHull& outside = options.outside;
+    const Receiver& receiver = options.receiver;
+    const std::vector<float>& weights = options.layer_weights;
+    add(options.precision != standard.precision, "precision",
+        quoted(kPrecisions[static_cast<size_t>(options.precision)]));
     add(outside.policy != standard.outside.policy, "outside",
         quoted(kPolicies[static_cast<size_t>(outside.policy)]));
     add(outside.fade_distance != standard.outside.fade_distance, "fade_distance",
@@ -64,9 +66,10 @@ std::string options_text(const VectorOptions& options) {
     add(receiver.rendering_layers != kAllRenderingLayers, "rendering_layers",
         std::to_string(receiver.rendering_layers));
     add(receiver.radius != 0.0f, "radius", number(receiver.radius));
-    add(normal_offset.has_value(), "normal_offset", number(normal_offset.value_or(0.0f)));
-    add(!layer_weights.empty(), "layer_weights",
-        array_of(layer_weights.size(), [&](size_t i) { return number(layer_weights[i]); }));
+    add(options.normal_offset.has_value(), "normal_offset",
+        number(options.normal_offset.value_or(0.0f)));
+    add(!weights.empty(), "layer_weights",
+        array_of(weights.size(), [&](size_t i) { return number(weights[i]); }));
     std::string text;
     for (const std::string& m : members) text += (text.empty() ? "" : ",") + m;
     return "{" + text + "}";
@@ -180,10 +183,10 @@ std::string write_vectors(const VectorText& vectors, const ProbeVolumeView& volu
 VectorText read_vectors(std::string_view text) {
     const json from = json::parse(text);
     VectorText vectors{from["volume"], from["about"], float_of(from["largest_light"]), {}};
-    for (const json& read : from["cases"]) {
+    for (const json& source : from["cases"]) {
         VectorCase& made = vectors.cases.emplace_back();
-        made.options = read_options(read["options"]);
-        for (const json& answer : read["answers"]) made.answers.push_back(read_answer(answer));
+        made.options = read_options(source["options"]);
+        for (const json& answer : source["answers"]) made.answers.push_back(read_answer(answer));
     }
     return vectors;
 }

@@ -87,7 +87,7 @@ class Places {
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
         for (const glm::vec3& position :
              {glm::vec3(kNan, 0, 0), glm::vec3(0, kInfinity, 1), glm::vec3(1, 2, -kInfinity)}) {
-            made.push_back({"not finite", position, {0, 1, 0}});
+            made.push_back({"not finite", position, glm::vec3(0, 1, 0)});
         }
     }
 

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <map>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/seed_grid.h>
@@ -121,7 +125,11 @@ std::vector<InterpolatedProbe> answer_batch(const ProbeVolumeView& volume, const
     }
     std::vector<IrradianceSh> irradiance(positions.size());
     std::vector<glm::vec4> occlusion(positions.size());
-    InterpolationBatch batch{positions, {}, irradiance, occlusion, made.options.outside};
+    InterpolationBatch batch;
+    batch.positions = positions;
+    batch.irradiance = irradiance;
+    batch.occlusion = occlusion;
+    batch.outside = made.options.outside;
     UniformReceiver receiver;
     receiver.set(made.options.receiver, batch);
     batch.normals = normals;
