@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include "tests/conformance/make_vectors.h"
 
@@ -16,7 +17,7 @@ int main(int argc, char** argv) {
         const std::string path = std::string(argv[1]) + "/" + file.name;
         const auto status = tetralight::write_file(path, file.bytes);
         if (!status) {
-            std::fprintf(stderr, "%s\n", status.error().message.c_str());
+            std::fprintf(stderr, "%s\n", tetralight::error_text(status.error()).c_str());
             return 1;
         }
     }

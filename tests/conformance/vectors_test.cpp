@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/seed_grid.h>
 #include <tetralight/probes/uniform_receiver.h>
@@ -47,7 +48,7 @@ void for_each_text(Use use) {
         const VectorText text = read_vectors(text_of(entry.path()));
         SCOPED_TRACE(text.volume);
         const auto file = open_probe_file(kFolder / text.volume);
-        ASSERT_TRUE(file) << file.error().message;
+        ASSERT_TRUE(file) << error_text(file.error());
         use(text, file->view());
     }
     EXPECT_GE(count, 10u);
@@ -135,7 +136,7 @@ std::vector<InterpolatedProbe> answer_batch(const ProbeVolumeView& volume, const
     batch.normals = normals;
     batch.normal_offset = made.options.normal_offset.value_or(kNormalOffset);
     const auto report = interpolate(volume, batch);
-    EXPECT_TRUE(report) << report.error().message;
+    EXPECT_TRUE(report) << error_text(report.error());
     std::vector<InterpolatedProbe> light;
     for (size_t i = 0; i < positions.size(); ++i) light.push_back({irradiance[i], occlusion[i]});
     return light;
