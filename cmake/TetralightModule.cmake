@@ -92,5 +92,9 @@ endfunction()
 # tetralight_ship(NAME): the module belongs to the ship set, which is built without exceptions and
 # RTTI so that a game can be built without them.
 function(tetralight_ship name)
-  target_compile_options(tetralight_${name} PRIVATE -fno-exceptions -fno-rtti)
+  target_compile_options(tetralight_${name} PRIVATE -fno-exceptions)
+  # UBSan checks objects by their type information, also of those that this module makes.
+  if(NOT TETRALIGHT_SANITIZE)
+    target_compile_options(tetralight_${name} PRIVATE -fno-rtti)
+  endif()
 endfunction()

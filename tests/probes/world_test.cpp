@@ -58,9 +58,9 @@ TEST_F(WorldTest, OpensTheTileOutsideNearTheBorder) {
 }
 
 TEST_F(WorldTest, AFlightStaysWithinItsMemoryWithTheAnswersOfTheVolume) {
-    const auto all = open().index();
+    const World closed = open();
     uint64_t largest = 0;
-    for (const WorldTile& tile : all.tiles) largest = std::max(largest, tile.file_size);
+    for (const WorldTile& tile : closed.index().tiles) largest = std::max(largest, tile.file_size);
     World world = open({.hysteresis = 1.0, .max_size = 9 * largest});
     const auto around = test::random_positions(200, 2, 0.8);
     for (int step = 0; step <= 100; ++step) {
