@@ -200,7 +200,7 @@ Result<PlanFile> read_plan(const std::string& job) {
     if (!Json::accept(text)) return Error{ErrorCode::Corrupt, str_cat(path, ": is not JSON")};
     const Json json = Json::parse(text);
     auto plan = json.is_object() ? plan_from(json)
-                                 : Result<PlanFile>(Error{ErrorCode::Corrupt, "is no JSON object"});
+                                 : Result<PlanFile>(Error{ErrorCode::Corrupt, "is not a JSON object"});
     if (!plan) return plan.error().in(path);
     return plan;
 }
