@@ -169,7 +169,7 @@ ProbeVolume make_slivers() {
     return volume;
 }
 
-/// The origin is no float.
+/// The origin is not exactly a float.
 ProbeVolume make_far() {
     Numbers numbers(9);
     Positions positions = random_positions(12, 40.0, numbers);
