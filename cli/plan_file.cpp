@@ -199,8 +199,9 @@ Result<PlanFile> read_plan(const std::string& job) {
     // Lists of tasks are long, but no object has many members.
     if (!Json::accept(text)) return Error{ErrorCode::Corrupt, str_cat(path, ": is not JSON")};
     const Json json = Json::parse(text);
-    auto plan = json.is_object() ? plan_from(json)
-                                 : Result<PlanFile>(Error{ErrorCode::Corrupt, "is not a JSON object"});
+    auto plan = json.is_object()
+                    ? plan_from(json)
+                    : Result<PlanFile>(Error{ErrorCode::Corrupt, "is not a JSON object"});
     if (!plan) return plan.error().in(path);
     return plan;
 }
