@@ -23,6 +23,16 @@ class Places {
         made.push_back({kind, glm::vec3(world), glm::vec3(numbers_.direction())});
     }
 
+    /// Adds positions that `draw` gives where their location fits, until there are `count`.
+    template <class Draw, class Fits>
+    void add_where(size_t count, const std::string& kind, Draw draw, Fits fits) {
+        constexpr int kMostTries = 10'000;
+        for (int i = 0; i < kMostTries && made.size() < count; ++i) {
+            add(kind, draw());
+            if (!fits(locate(volume_, made.back().position))) made.pop_back();
+        }
+    }
+
     /// A blend of the first `count` corners of an inner cell; all with the same weight, or at
     /// random.
     [[nodiscard]] glm::dvec3 blend(uint32_t cell, int count, bool is_random) {
@@ -114,24 +124,22 @@ std::vector<VectorPosition> make_vector_positions(const ProbeVolumeView& volume,
 std::vector<VectorPosition> make_hidden_positions(const ProbeVolumeView& volume, size_t count,
                                                   Numbers& numbers) {
     Places places(volume, numbers);
-    constexpr int kMostTries = 10'000;
-    for (int i = 0; i < kMostTries && places.made.size() < count; ++i) {
-        places.add("hidden", places.inside());
-        const CellLocation location = locate(volume, places.made.back().position);
-        if (visible_location(volume, location) == location) places.made.pop_back();
-    }
+    places.add_where(
+        count, "hidden", [&] { return places.inside(); },
+        [&](const CellLocation& location) {
+            return visible_location(volume, location) != location;
+        });
     return places.made;
 }
 
 std::vector<VectorPosition> make_outside_positions(const ProbeVolumeView& volume, size_t count,
                                                    Numbers& numbers) {
     Places places(volume, numbers);
-    constexpr int kMostTries = 10'000;
-    for (int i = 0; i < kMostTries && places.made.size() < count; ++i) {
-        places.add("near", places.outside(0.5, 3.0));
-        const CellLocation location = locate(volume, places.made.back().position);
-        if (location.cell < volume.info.inner_cell_count) places.made.pop_back();
-    }
+    places.add_where(
+        count, "near", [&] { return places.outside(0.5, 3.0); },
+        [&](const CellLocation& location) {
+            return location.cell >= volume.info.inner_cell_count;
+        });
     return places.made;
 }
 

@@ -77,17 +77,22 @@ function shadeMeshes(probes: ProbeVolume, kind: Kind, squares: readonly Square[]
     return colors;
 }
 
-/** All squares as instances in one draw. */
-function shadeInstances(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): number[][] {
-    const mesh = new three.InstancedMesh(kGeometry, makeMaterial(kind), squares.length);
-    squares.forEach((square, i) => mesh.setMatrixAt(i, placeOf(square)));
-    mesh.frustumCulled = false;
+/** The colors of squares that one object holds. */
+function colorsOf(probes: ProbeVolume, mesh: three.Object3D, squares: readonly Square[]): number[][] {
     const scene = new three.Scene().add(mesh);
     probes.add(scene);
     probes.update();
     const colors = squares.map(({position, normal}) => colorOf(scene, cameraAt(vector(position), vector(normal))));
     probes.remove(scene);
     return colors;
+}
+
+/** All squares as instances in one draw. */
+function shadeInstances(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): number[][] {
+    const mesh = new three.InstancedMesh(kGeometry, makeMaterial(kind), squares.length);
+    squares.forEach((square, i) => mesh.setMatrixAt(i, placeOf(square)));
+    mesh.frustumCulled = false;
+    return colorsOf(probes, mesh, squares);
 }
 
 /** All squares as instances of a batch, after others were deleted. */
@@ -100,12 +105,7 @@ function shadeBatch(probes: ProbeVolume, kind: Kind, squares: readonly Square[])
         return instance;
     }));
     instances.forEach((instance, i) => { if (i % 2 === 0) mesh.deleteInstance(instance); });
-    const scene = new three.Scene().add(mesh);
-    probes.add(scene);
-    probes.update();
-    const colors = squares.map(({position, normal}) => colorOf(scene, cameraAt(vector(position), vector(normal))));
-    probes.remove(scene);
-    return colors;
+    return colorsOf(probes, mesh, squares);
 }
 
 /** A square of which a bone moves all corners, in place of the mesh. */

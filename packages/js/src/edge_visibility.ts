@@ -73,7 +73,7 @@ export class EdgeVisibility {
         this.share(weights, sum);
     }
 
-    /** Hidden corners together keep a hundredth of what is low, by what is steep. */
+    /** Gives hidden corners a hundredth of the weight that walls took (`low`), in proportion to `steep`. */
     private share(weights: Float64Array, sum: number): void {
         const {parts: p} = this;
         const low = p[kLow] + p[kLow + 1] + (p[kLow + 2] + p[kLow + 3]);
