@@ -10,6 +10,7 @@
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/export_reflections.h>
+#include <tetralight/cli/export_volume.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflection_files.h>
@@ -17,6 +18,7 @@
 #include <tetralight/pipeline/exported_texels.h>
 #include <tetralight/pipeline/lightmap_images.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
+#include <tetralight/probes/probe_file.h>
 #include <tetralight/render/page_preview.h>
 
 namespace tetralight::cli {
@@ -68,7 +70,7 @@ struct Export {
     CommonOptions common;
 
     explicit Export(const Values& values)
-        : lightmaps_path(values.text("lightmaps")),
+        : lightmaps_path(values.text("volume")),
           output(values.text("output")),
           scene_path(values.text("scene")),
           reading(scene_reading(values)),
@@ -95,6 +97,9 @@ struct Export {
             refuse(values, "probe", "a glb has one image-based light");
         if (!packed.empty() && values.is_given("map"))
             refuse(values, "pack", "is given beside " + values.shown("map"));
+        for (const char* name : {"bounds", "resolution", "spacing", "at"}) {
+            if (values.is_given(name)) refuse(values, name, "is for probe volumes");
+        }
         if (format != ExportFormat::Preview && !marked.empty())
             refuse(values, "mark", "only previews mark objects");
     }
@@ -107,6 +112,11 @@ struct Export {
                              shown_path(lightmaps_path) + " has none"};
         }
         const auto file = open_lightmaps(lightmaps_path);
+        if (!file && open_probe_file_lazy(lightmaps_path)) {
+            return Error{ErrorCode::InvalidArgument, "as", "",
+                         shown_path(lightmaps_path) +
+                             ": contains probes; --as names a format for them (docs/engines.md)"};
+        }
         if (!file) return file.error();
         const LightmapsView& maps = (*file)->view();
         const auto paths = output_paths(maps.info.page_count);
@@ -124,7 +134,7 @@ struct Export {
     [[nodiscard]] Status run_reflections() const {
         const std::string start = shown_path(lightmaps_path) + ": contains reflection probes";
         if (has_lightmap_settings) {
-            return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
+            return Error{ErrorCode::InvalidArgument, "volume", lightmaps_path,
                          start + "; --map, --pack and --mark are for lightmaps"};
         }
         if (!with_reflections) return with_reflections;
@@ -150,7 +160,7 @@ struct Export {
             if (!status) return status.error();
         }
         if (!paths.empty()) return paths;
-        return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
+        return Error{ErrorCode::InvalidArgument, "volume", lightmaps_path,
                      lightmaps_path + ": has no pages"};
     }
 
@@ -209,6 +219,9 @@ struct Export {
 }  // namespace
 
 Status run_export(const Values& values) {
+    if (const ExportTarget* target = chosen_export_target(values)) {
+        return export_volume(values, *target);
+    }
     return Export(values).run();
 }
 

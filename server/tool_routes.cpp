@@ -130,18 +130,19 @@ Response export_lightmaps(Service& service, const Request& request) {
     Fields fields(order);
     const std::string format = fields.text("as", "glb");
     if (format != "glb" && format != "ktx2") refuse("as", format, "glb or ktx2");
-    if (order.contains("lightmaps") || order.contains("mark")) {
-        const char* member = order.contains("mark") ? "mark" : "lightmaps";
+    if (order.contains("volume") || order.contains("mark")) {
+        const char* member = order.contains("mark") ? "mark" : "volume";
         throw Problem{400, "unknown_member",
                       str_cat("\"", member, "\" is not a member of this order"), member,
                       shown(order[member])};
     }
     order["as"] = format;
-    order["lightmaps"] = request.captures[0];
+    order["volume"] = request.captures[0];
     check_order(settings::kExport, order);
     const WorkFolder folder = service.store.make_work_folder();
     const std::string output = result_name("." + format);
-    Json report = run_order(service, request, {settings::kExport, order}, folder, output);
+    Json report =
+        run_order(service, request, {settings::kExport, order, Kind::Lightmaps}, folder, output);
     for (const char* member : {"files", "warnings"}) report.erase(member);
     return {.content_type = format == "glb" ? "model/gltf-binary" : "image/ktx2",
             .headers = {{"X-Tetralight-Report", dump(report)}},

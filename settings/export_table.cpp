@@ -5,19 +5,61 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("lightmaps", "Lightmaps, or reflection probes (.lightmaps, .ktx2)"),
-    output_file(".exr .ktx2 .png .glb",
-                "File to write; exr and png write one file a page or cube: a_0.exr, a_1.exr"),
+    input_file("volume",
+               "Probe volume, lightmaps, or reflection probes (.probes, .lightmaps, .ktx2)"),
+    output_file("",
+                "File to write; others of the export are put beside it, and exr and png write "
+                "one file a page or cube: a_0.exr, a_1.exr"),
     {.name = "as",
      .type = Type::Choice,
      .help =
-         "exr = 32-bit float images, of a cube its six faces one below the other; ktx2 = one "
-         "array texture of 16-bit floats; png = RGBM "
-         "images; glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection probe as "
-         "EXT_lights_image_based; preview = PNG images for looking at, with the rectangle of "
-         "each object",
-     .choices = "exr ktx2 png glb preview",
-     .without = "by the extension of the output"},
+         "Format. Of probe volumes: three-grid, vtu, json, csv (docs/engines.md has what each "
+         "keeps and loses). Of lightmaps and reflection probes: exr = 32-bit float images, of a "
+         "cube its six faces one below the other; ktx2 = one array texture of 16-bit floats; png "
+         "= RGBM images; glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection "
+         "probe as EXT_lights_image_based; preview = PNG images for looking at, with the "
+         "rectangle of each object",
+     .choices = "exr ktx2 png glb preview three-grid vtu json csv",
+     .without = "by the extension of the output"}};
+
+constexpr Setting kVolumeSettings[] = {
+    {.name = "bounds",
+     .type = Type::Numbers,
+     .help = "World box that a grid fills: minimum x,y,z, maximum x,y,z",
+     .unit = "metres",
+     .range = kPositions,
+     .count = 6,
+     .without = "the box of the probes",
+     .value_name = "X,Y,Z,X,Y,Z",
+     .access = Access::Command},
+    {.name = "resolution",
+     .type = Type::Integers,
+     .help = "Cells of a grid along each axis",
+     .unit = "cells",
+     .range = {1, 2048},
+     .count = 3,
+     .without = "by --spacing",
+     .value_name = "X,Y,Z",
+     .access = Access::Command},
+    {.name = "spacing",
+     .type = Type::Number,
+     .help = "Largest distance between the centers of a grid's cells",
+     .unit = "metres",
+     .range = {0, 1e9, true},
+     .without = "the mean spacing of the probes",
+     .excludes = "resolution",
+     .access = Access::Command},
+    {.name = "at",
+     .type = Type::Vector,
+     .help = "Place whose light is written, of formats that hold the light of places",
+     .unit = "metres",
+     .range = kPositions,
+     .without = "every probe, or the center of the probes where a format holds one place",
+     .value_name = "X,Y,Z",
+     .is_list = true,
+     .access = Access::Command}};
+
+constexpr Setting kLightmapSettings[] = {
     {.name = "map",
      .type = Type::Choice,
      .help = "What is written of the texels of lightmaps: irradiance; direction = dominant "
@@ -64,6 +106,8 @@ constexpr Setting kFiles[] = {
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Probe volumes", kVolumeSettings},
+                             {"Lightmaps and reflection probes", kLightmapSettings},
                              {"Reading the scene", kOptionalSceneReading.rows},
                              {"Common options", kCommonSettings}};
 
@@ -71,8 +115,12 @@ constexpr Group kGroups[] = {{"Files", kFiles},
 
 const Table kExport{
     .command = "export",
-    .summary = "Write lightmaps or reflection probes as images, or into their scene",
+    .summary =
+        "Write probes for engines and tools, and lightmaps or reflection probes as images or into "
+        "their scene",
     .examples =
+        "tetralight export courtyard.probes --as three-grid --spacing 0.5 -o courtyard.json\n"
+        "tetralight export courtyard.probes -o courtyard.vtu\n"
         "tetralight export courtyard.lightmaps -o courtyard.exr\n"
         "tetralight export courtyard.lightmaps --scene courtyard.glb -o lit.glb\n"
         "tetralight export rooms.ktx2 -o rooms.exr\n"

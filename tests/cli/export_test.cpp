@@ -139,5 +139,59 @@ TEST_F(Export, SaysWhatIsMissing) {
         contains(fail({"export", "c.lightmaps", "--as", "exr", "-o", "-"}), "pages to stdout"));
 }
 
+/// A volume without light is enough to see what is written where.
+class ExportVolume : public CommandFixture {
+  protected:
+    ExportVolume() {
+        write("g.json", R"({"groups": [{"name": "=a", "positions":
+            [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [4, 4, 4]]}]})");
+        succeed({"tetrahedralize", "g.json", "-o", "v.probes"});
+    }
+};
+
+TEST_F(ExportVolume, TheOutputNamesTheFormatIfOnlyOneHasItsExtension) {
+    EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.vtu"})["as"], "vtu");
+    EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.csv"})["as"], "csv");
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.json"}), "--as is required"));
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "--as", "csv", "-o", "v.txt"}),
+                         "--output: v.txt: a file for csv ends with .csv"));
+}
+
+TEST_F(ExportVolume, FilesBesideTheOutputAreNamedAfterIt) {
+    const Json json = run_json({"export", "v.probes", "--as", "three-grid", "--resolution", "2,2,2",
+                                "-o", path("sub.json")});
+    EXPECT_EQ(json["files"], (Json{path("sub.json"), path("sub.bin")}));
+    EXPECT_EQ(read("sub.bin").size(), 2u * 2 * 7 * 4 * 16);
+    EXPECT_EQ(json["lost"].size(), 1u);
+    EXPECT_EQ(json["difference"]["places"], 10000);
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "three-grid", "-o", "-"}),
+                         "cannot write 2 files to stdout"));
+    EXPECT_EQ(succeed({"export", "v.probes", "--as", "csv", "-o", "-"}).out.substr(0, 6), "x,y,z,");
+}
+
+TEST_F(ExportVolume, SettingsBelongToFormats) {
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--spacing", "1"}),
+                         "--spacing: is for grids, and vtu is not a grid"));
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--at", "1,2,3"}),
+                         "--at: vtu does not hold the light of single places"));
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--map", "mono-sh"}),
+                         "--map: is for lightmaps and reflection probes"));
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.png", "--spacing", "1"}),
+                         "--spacing: is for probe volumes"));
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "three-grid", "--bounds",
+                               "0,0,0,1,0,1", "-o", "v.json"}),
+                         "--bounds: the minimum is not below the maximum along each axis"));
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", "v.png"}),
+                         "v.probes: contains probes; --as names a format for them"));
+}
+
+TEST_F(ExportVolume, OldFilesStay) {
+    write("old.csv", "old");
+    fail({"export", "none.probes", "-o", "old.csv"});
+    EXPECT_EQ(read("old.csv"), "old");
+    EXPECT_TRUE(
+        contains(fail({"export", "v.probes", "--as", "three-grid", "-o", "no/v.json"}), "no"));
+}
+
 }  // namespace
 }  // namespace tetralight::test
