@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tests run in the browser, as `window.page`, with WebGLRenderer.
+import * as three from 'three';
+
+import {ProbeVolume, toLightProbeGrid} from '../src/three/index.js';
+import {Kind, Kit, kSize, kSphereSize, Square, Squares, vector} from './three_squares.js';
+
+const renderer = new three.WebGLRenderer();
+renderer.setSize(kSphereSize, kSphereSize);
+const target = new three.WebGLRenderTarget(kSize, kSize, {type: three.FloatType});
+
+const kit: Kit = {
+    async readPixels(scene, camera) {
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        const pixels = new Float32Array(4 * kSize * kSize);
+        renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
+        return pixels;
+    },
+    draw(scene, camera, exposure) {
+        renderer.setRenderTarget(null);
+        renderer.toneMapping = three.LinearToneMapping;
+        renderer.toneMappingExposure = exposure;
+        renderer.render(scene, camera);
+        return renderer.domElement;
+    },
+    makeMaterial(kind: Kind, color: three.Color) {
+        switch (kind) {
+            case 'standard': return new three.MeshStandardMaterial({color, roughness: 1, metalness: 0});
+            case 'physical': return new three.MeshPhysicalMaterial({color, roughness: 1, metalness: 0, specularIntensity: 0});
+            case 'lambert': return new three.MeshLambertMaterial({color});
+            case 'phong': return new three.MeshPhongMaterial({color, specular: 0});
+        }
+    },
+    makeProbes: volume => new ProbeVolume(volume),
+};
+
+class Page extends Squares {
+    /** Squares lit by the grid of three.js in a box. */
+    async grid({volume}: ProbeVolume, squares: readonly Square[], low: readonly number[], high: readonly number[],
+               resolution: readonly [number, number, number]): Promise<number[][]> {
+        const scene = new three.Scene();
+        const light = toLightProbeGrid(volume, new three.Box3(vector(low), vector(high)), resolution);
+        scene.add(light);
+        const material = new three.MeshLambertMaterial({color: new three.Color(0.5, 0.5, 0.5)});
+        const geometry = new three.PlaneGeometry(1, 1);
+        const colors = [];
+        for (const square of squares) {
+            const mesh = new three.Mesh(geometry, material);
+            mesh.position.copy(vector(square.position));
+            mesh.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), vector(square.normal));
+            scene.add(mesh);
+            colors.push(await this.color(scene, square));
+            scene.remove(mesh);
+        }
+        light.dispose();
+        return colors;
+    }
+}
+
+export const page = new Page(kit);
+Object.assign(window, {page});
