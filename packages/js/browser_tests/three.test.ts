@@ -2,6 +2,7 @@
 // Objects of WebGLRenderer against the light of the volume.
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
+import {irradiance, kCoefficients} from '../src/index.js';
 import {makeRandom} from '../tests/random.js';
 import {compareSpheres, compareSquares, kCanTest, LitSquares, TestPage} from './three_browser.js';
 import type {page as PageOfBrowser} from './three_page.js';
@@ -77,5 +78,30 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         lit.volume.setWeights({sky: 1});
         after.forEach((value, k) => expect(value).toBeCloseTo(dimmed[k], 2));
         expect(after[0]).toBeLessThan(before[0]);
+    });
+
+    test('the helper shows the light of probes and the edges of cells', async () => {
+        const probes = [0, 5, lit.volume.probeCount - 1];
+        const normal = [0.48, 0.6, 0.64];
+        const shown = await opened.page.evaluate(([bytes, all, view]) => {
+            const {page} = window as unknown as Window;
+            return page.helper(page.open(bytes), all, view, {sky: 0.25});
+        }, [lit.base64, probes, normal] as const);
+        const wanted = () => probes.map(i => irradiance(lit.volume.irradiance, normal, kCoefficients * i));
+        // Balls interpolate light between their corners.
+        const compare = (colors: number[][], want: number[][]) => colors.flat().forEach((value, i) => {
+            expect(Math.abs(value - Math.max(0, want.flat()[i]) / Math.PI)).toBeLessThan(0.01 * Math.max(...want.flat()));
+        });
+        compare(shown.full, wanted());
+        lit.volume.setWeights({sky: 0.25});
+        compare(shown.dimmed, wanted());
+        lit.volume.setWeights({sky: 1});
+        // In space, cells of which all are tetrahedra: Euler's formula for balls, V - E + F - C = 1.
+        const {cells, info: {innerCellCount}} = lit.volume.data;
+        const outerFaces = cells.length / 8 - innerCellCount;
+        const faces = (4 * innerCellCount + outerFaces) / 2;
+        expect(shown.edges).toBe(lit.volume.probeCount + faces - innerCellCount - 1);
+        expect(shown.lines).toBe(shown.edges);
+        expect(shown.after).toEqual(shown.before);
     });
 });

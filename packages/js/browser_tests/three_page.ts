@@ -2,8 +2,8 @@
 // What the tests run in the browser, as `window.page`, with WebGLRenderer.
 import * as three from 'three';
 
-import {ProbeVolume, toLightProbeGrid} from '../src/three/index.js';
-import {Kind, Kit, kSize, kSphereSize, Square, Squares, vector} from './three_squares.js';
+import {ProbeVolume, ProbeVolumeHelper, toLightProbeGrid} from '../src/three/index.js';
+import {cameraAt, Kind, Kit, kSize, kSphereSize, Square, Squares, vector} from './three_squares.js';
 
 const renderer = new three.WebGLRenderer();
 renderer.setSize(kSphereSize, kSphereSize);
@@ -55,6 +55,32 @@ class Page extends Squares {
         }
         light.dispose();
         return colors;
+    }
+
+    /** Balls of the helper in the middle of a picture, before and after the weights change, and what it draws. */
+    async helper({volume}: ProbeVolume, probes: readonly number[], normal: readonly number[], weights: Record<string, number>) {
+        const before = {...renderer.info.memory};
+        const helper = new ProbeVolumeHelper(volume, {radius: 0.05});
+        const scene = new three.Scene().add(helper);
+        const colors = async () => {
+            const all = [];
+            for (const i of probes) {
+                const pixels = await kit.readPixels(scene, cameraAt({position: volume.position(i), normal}, 0.005, 0.1));
+                all.push([...pixels.subarray(4 * (kSize * kSize / 2 + kSize / 2)).subarray(0, 3)]);
+            }
+            return all;
+        };
+        helper.cells.visible = false;
+        const full = await colors();
+        volume.setWeights(weights);
+        helper.update();
+        const dimmed = await colors();
+        helper.cells.visible = true;
+        renderer.render(scene, cameraAt({position: volume.position(0), normal}, 10, 10));
+        const lines = renderer.info.render.lines;
+        const ends = helper.cells.geometry.index!.array;
+        helper.dispose();
+        return {full, dimmed, lines, edges: ends.length / 2, before, after: {...renderer.info.memory}};
     }
 }
 
