@@ -11,7 +11,7 @@ export type Kind = 'standard' | 'physical' | 'lambert' | 'phong';
 /** A renderer, its materials and its probes. */
 export interface Kit {
     /** Linear RGBA floats of a picture of `kSize` squared pixels. */
-    readPixels(scene: three.Scene, camera: three.Camera): Promise<Float32Array>;
+    readPixels(scene: three.Object3D, camera: three.Camera): Promise<Float32Array>;
     /** Draws on a canvas, as users see it. */
     draw(scene: three.Scene, camera: three.Camera, exposure: number): HTMLCanvasElement;
     makeMaterial(kind: Kind, color: three.Color): three.Material;
