@@ -4,20 +4,16 @@ import * as three from 'three';
 
 import type {BatchOptions} from '../batch.js';
 import {kNone} from '../section_file.js';
-import {kPacked} from '../sh.js';
 import type {Volume} from '../volume.js';
 import {centerOfBounds} from './bounds.js';
+import {makePackedTexture, resizePackedTexture} from './packed_texture.js';
 
 export type InstancesMesh = three.InstancedMesh | three.BatchedMesh;
-
-/** A row of the texture has at most 7 · 512 texels. */
-const kInstancesInRow = 512;
 
 const isBatched = (mesh: InstancesMesh): mesh is three.BatchedMesh => (mesh as three.BatchedMesh).isBatchedMesh === true;
 
 export class InstanceLight {
-    readonly texture = new three.DataTexture(null, 1, 1, three.RGBAFormat, three.FloatType);
-    /** Seven texels each: those of an instance are in one row. */
+    readonly texture = makePackedTexture();
     private packed = new Float32Array(0);
     private positions = new Float32Array(0);
     private hints = new Uint32Array(0);
@@ -47,13 +43,9 @@ export class InstanceLight {
 
     private resize(count: number): void {
         if (count === this.hints.length) return;
-        const columns = Math.max(1, Math.min(count, kInstancesInRow));
-        const rows = Math.max(1, Math.ceil(count / columns));
-        this.packed = new Float32Array(kPacked * columns * rows);
+        this.packed = resizePackedTexture(this.texture, count);
         this.positions = new Float32Array(3 * count);
         this.hints = new Uint32Array(count).fill(kNone);
-        this.texture.dispose();
-        this.texture.image = {data: this.packed, width: 7 * columns, height: rows};
     }
 
     private findPositions(): void {

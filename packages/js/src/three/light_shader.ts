@@ -13,10 +13,9 @@ export type LightSource = {sh: Float32Array} | {texture: three.DataTexture};
 
 const kVectors = [0, 1, 2, 3, 4, 5, 6];
 
-/** Irradiance on a normal in view space. `sh` names one of the seven vectors. */
-const irradianceFunction = (sh: (i: number) => string) => `
-vec3 tetralightIrradiance(vec3 viewNormal) {
-    vec3 n = normalize((vec4(viewNormal, 0.0) * viewMatrix).xyz);
+/** Irradiance on a world normal. `sh` names one of the seven vectors. */
+export const irradianceFunction = (sh: (i: number) => string) => `
+vec3 tetralightIrradiance(vec3 n) {
     vec4 linear = vec4(n, 1.0);
     vec4 quadratic = vec4(n.x * n.y, n.y * n.z, n.z * n.z, n.z * n.x);
     vec3 sum = vec3(dot(${sh(0)}, linear) + dot(${sh(3)}, quadratic), dot(${sh(1)}, linear) + dot(${sh(4)}, quadratic),
@@ -30,8 +29,8 @@ const kFromUniform = `uniform vec4 tetralightSh[7];\n${irradianceFunction(i => `
 const kVaryings = kVectors.map(i => `flat varying vec4 vTetralightSh${i};\n`).join('');
 const kFromVaryings = kVaryings + irradianceFunction(i => `vTetralightSh${i}`);
 
-// The texels of an instance follow each other in one row.
-const kReadTexture = `uniform highp sampler2D tetralightTexture;
+/** Reads vector i of an instance from its texture. The texels of an instance follow each other in one row. */
+export const kReadTexture = `uniform highp sampler2D tetralightTexture;
 vec4 tetralightTexel(int i) {
     #ifdef USE_BATCHING
         int instance = int(getIndirectIndex(gl_DrawID));
@@ -63,7 +62,7 @@ function patch(shader: {vertexShader: string; fragmentShader: string}, kind: 'un
     shader.fragmentShader = shader.fragmentShader
         .replace('void main() {', `${kind === 'uniform' ? kFromUniform : kFromVaryings}void main() {`)
         .replace('#include <lights_fragment_begin>',
-                 '#include <lights_fragment_begin>\n    irradiance += tetralightIrradiance(geometryNormal);');
+                 '#include <lights_fragment_begin>\n    irradiance += tetralightIrradiance(normalize((vec4(geometryNormal, 0.0) * viewMatrix).xyz));');
     if (kind === 'uniform') return;
     shader.vertexShader = shader.vertexShader
         .replace('void main() {', `${kVaryings}${kReadTexture}void main() {\n${kCopyTexels}`);

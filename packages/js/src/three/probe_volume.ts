@@ -12,12 +12,12 @@ import {kPacked, packSh} from '../sh.js';
 import type {Volume} from '../volume.js';
 import {centerOfBounds} from './bounds.js';
 import {InstanceLight, InstancesMesh} from './instances.js';
-import {isLit, litCopy} from './light_shader.js';
+import {isLit, LightSource, litCopy} from './light_shader.js';
 
 /** Options of all queries of the objects. */
 export type ProbeVolumeOptions = Pick<QueryOptions, 'outside' | 'fadeDistance' | 'walls' | 'radius' | 'renderingLayers'>;
 
-type Mesh = three.Mesh<three.BufferGeometry, three.Material | three.Material[]>;
+export type Mesh = three.Mesh<three.BufferGeometry, three.Material | three.Material[]>;
 
 /** What a mesh had before it was lit. */
 interface Before {
@@ -85,17 +85,27 @@ export class ProbeVolume {
         this.update();
     }
 
+    /** A copy of a material of a mesh that is lit from `source`, too. Materials without light stay as they are. */
+    protected litMaterial(material: three.Material, source: LightSource, _mesh: Mesh): three.Material {
+        return isLit(material) ? litCopy(material, source) : material;
+    }
+
+    private copies(mesh: Mesh, source: LightSource): three.Material | three.Material[] {
+        const lit = [mesh.material].flat().map(material => this.litMaterial(material, source, mesh));
+        return Array.isArray(mesh.material) ? lit : lit[0];
+    }
+
     private addMesh(mesh: Mesh): void {
         const light = new Float32Array(kPacked);
         this.meshes.set(mesh, {material: mesh.material, light, hint: kNone, position: new three.Vector3(NaN, NaN, NaN)});
-        mesh.material = copies(mesh.material, material => litCopy(material, {sh: light}));
+        mesh.material = this.copies(mesh, {sh: light});
     }
 
     private addInstances(mesh: InstancesMesh): void {
         if (this.instances.has(mesh)) return;
         const light = new InstanceLight(mesh);
         this.instances.set(mesh, {material: mesh.material, light});
-        mesh.material = copies(mesh.material, material => litCopy(material, {texture: light.texture})) as three.Material;
+        mesh.material = this.copies(mesh, {texture: light.texture}) as three.Material;
     }
 
     private lightMesh(lit: LitMesh, position: three.Vector3): void {
@@ -104,11 +114,6 @@ export class ProbeVolume {
         lit.hint = light.cell;
         packSh(light.sh, 0, lit.light, 0);
     }
-}
-
-function copies(material: three.Material | three.Material[], copy: (material: three.Material) => three.Material) {
-    const lit = [material].flat().map(each => isLit(each) ? copy(each) : each);
-    return Array.isArray(material) ? lit : lit[0];
 }
 
 function centerOf(mesh: Mesh): three.Vector3 {
