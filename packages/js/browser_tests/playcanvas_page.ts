@@ -20,6 +20,7 @@ camera.addComponent('camera', {projection: pc.PROJECTION_ORTHOGRAPHIC, orthoHeig
 app.root.addChild(camera);
 
 const plane = pc.Mesh.fromGeometry(app.graphicsDevice, new pc.PlaneGeometry());
+plane.incRefCount();  // stays when its last entity is destroyed
 
 function makeWhite(): pc.StandardMaterial {
     const material = new pc.StandardMaterial();
@@ -57,14 +58,14 @@ function colorsOf(squares: readonly Square[], entities: readonly pc.Entity[]): n
 let probes: ProbeVolume;
 
 /** All squares below one entity; they share one material. */
-function shadeObjects(squares: readonly Square[]): number[][] {
+function shadeObjects(squares: readonly Square[], prepare = () => probes.update()): number[][] {
     const material = makeWhite();
     const root = new pc.Entity();
     app.root.addChild(root);
     const entities = squares.map(square => makeSquare(square, material));
     entities.forEach(entity => root.addChild(entity));
     probes.add(root);
-    probes.update();
+    prepare();
     const colors = colorsOf(squares, entities);
     probes.remove(root);
     if (entities.some(entity => entity.render!.meshInstances[0].material !== material)) {
@@ -72,6 +73,18 @@ function shadeObjects(squares: readonly Square[]): number[][] {
     }
     root.destroy();
     return colors;
+}
+
+/** The same, after the light of the volume was out. */
+function shadeRefreshed(squares: readonly Square[]): number[][] {
+    const {volume} = probes;
+    const weights = Object.fromEntries(volume.layers.map(({name, weight}) => [name, weight]));
+    return shadeObjects(squares, () => {
+        volume.setWeights(Object.fromEntries(volume.layers.map(({name}) => [name, 0])));
+        probes.update();
+        volume.setWeights(weights);
+        probes.refresh();
+    });
 }
 
 /** One entity that moves, with a black sky that turns and has half of its intensity. */
@@ -112,7 +125,7 @@ function shadeMaterials(squares: readonly Square[]): number[][] {
 }
 
 const ways: Record<string, (squares: readonly Square[]) => number[][]> =
-    {objects: shadeObjects, sky: shadeBelowSky, materials: shadeMaterials};
+    {objects: shadeObjects, refreshed: shadeRefreshed, sky: shadeBelowSky, materials: shadeMaterials};
 
 const engine: EnginePage = {
     open(base64, weights) {
