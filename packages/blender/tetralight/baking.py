@@ -202,7 +202,7 @@ class ServiceBake(Bake):
     def _run(self):
         name = {"name": self.settings.name} if self.settings.name else {}
         self.progress = Progress("Uploading the scene")
-        path = "/v1/scenes?" + urllib.parse.urlencode(name) if name else "/v1/scenes"
+        path = "/v1/scenes" + (f"?name={urllib.parse.quote(self.settings.name, safe='')}" if name else "")
         scene = self._service.upload(path, self.scene, "model/gltf-binary")["id"]
         self._check_cancelled()
         groups = []
