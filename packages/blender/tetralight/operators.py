@@ -88,6 +88,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
     bl_description = "Export the scene and bake its light into a probe volume. Esc cancels"
 
     _timer = None
+    _mine = None  # the RunningBake of this operator; the button may have ended it, and begun another one
 
     @classmethod
     def poll(cls, context):
@@ -105,6 +106,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
         """From the user interface, which does not wait."""
         if not self._start(context):
             return {"CANCELLED"}
+        self._mine = running
         manager = context.window_manager
         manager.progress_begin(0, 100)
         self._timer = manager.event_timer_add(SECONDS_BETWEEN_STEPS, window=context.window)
@@ -112,11 +114,8 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if running is None:  # cancelled by the button
-            self._end_modal(context)
-            self.report({"WARNING"}, "The bake was cancelled; no file was changed")
-            return {"CANCELLED"}
-        if event.type == "ESC" and event.value == "PRESS":
+        is_escape = event.type == "ESC" and event.value == "PRESS"
+        if is_escape or running is not self._mine:
             self.cancel(context)
             self.report({"WARNING"}, "The bake was cancelled; no file was changed")
             return {"CANCELLED"}
@@ -130,7 +129,8 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
 
     def cancel(self, context):
         """Blender calls it, too, when it ends or loads another file."""
-        cancel_bake()
+        if running is self._mine:
+            cancel_bake()
         self._end_modal(context)
 
     def _start(self, context):
@@ -157,7 +157,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
             self.report({"WARNING"}, warning)
 
     def _show_progress(self, context):
-        progress = running.bake.progress
+        progress = self._mine.bake.progress
         context.window_manager.progress_update(round(100 * (progress.fraction or 0)))
         context.workspace.status_text_set(f"Tetralight: {progress_text(progress)}. Esc: cancel")
         redraw_sidebars(context)
