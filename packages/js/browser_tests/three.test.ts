@@ -66,6 +66,13 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         });
     });
 
+    test('a character has the light at its anchor, where its bone is', async () => {
+        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.skin(page.open(bytes), 'lambert', all, true);
+        }, [lit.base64, lit.squares] as const));
+    });
+
     test('instances that move take new light, and no others are looked for', async () => {
         const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
             const {page} = window as unknown as Window;

@@ -131,15 +131,16 @@ export class Squares {
         return this.colorsOf(probes, mesh, squares);
     }
 
-    /** A square of which a bone moves all corners, in place of the mesh. */
-    async skin(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): Promise<number[][]> {
+    /** A square of which the mesh moves all corners, or, with an anchor, a bone in it. */
+    async skin(probes: ProbeVolume, kind: Kind, squares: readonly Square[], isAnchored = false): Promise<number[][]> {
         const mesh = makeSkin(this.material(kind));
+        const moved = isAnchored ? mesh.skeleton.bones[0] : mesh;
         const scene = new three.Scene().add(mesh);
-        probes.add(scene);
+        mesh.frustumCulled = false;
+        probes.add(scene, isAnchored ? moved : undefined);
         const colors = [];
         for (const square of squares) {
-            mesh.matrix.identity().decompose(mesh.position, mesh.quaternion, mesh.scale);
-            mesh.applyMatrix4(placeOf(square));
+            placeOf(square).decompose(moved.position, moved.quaternion, moved.scale);
             scene.updateMatrixWorld();
             probes.update();
             colors.push(await this.color(scene, square));

@@ -12,7 +12,7 @@ function begin({probes, scene, box, groundBelow, run}: Stage): void {
     const {mesh} = figure;
     scene.add(mesh);
     mesh.updateMatrixWorld();
-    probes.add(mesh);
+    probes.add(mesh, mesh.skeleton.bones[0]);
     const size = box.getSize(new three.Vector3());
     const center = box.getCenter(new three.Vector3());
     const radius = parameter('radius', 0.2 * Math.min(size.x, size.z));

@@ -25,7 +25,7 @@ function begin({volume, probes, lightmaps, scene, box, lights, sky, groundBelow,
     figure.mesh.position.x = 0.6 * box.max.x + 0.4 * figure.mesh.position.x;
     figure.mesh.position.y = groundBelow(figure.mesh.position);
     figure.mesh.updateMatrixWorld();
-    probes.add(figure.mesh);
+    probes.add(figure.mesh, figure.mesh.skeleton.bones[0]);
     const intensities = lights.map(({intensity}) => intensity);
     const noon = sky.clone();
     let shown = -1;
