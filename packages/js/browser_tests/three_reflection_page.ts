@@ -2,7 +2,7 @@
 // What the tests of reflections run in the browser, as `window.page`.
 import * as three from 'three';
 
-import {readReflections} from '../src/index.js';
+import {LayerWeights, readReflections} from '../src/index.js';
 import {SceneReflections} from '../src/three/index.js';
 import {cameraAt, kSize, Square, vector} from './three_squares.js';
 import {kit} from './three_webgl_kit.js';
@@ -13,12 +13,14 @@ export interface Mirror extends Square {
 }
 
 /** The radiance that squares of a roughness show under an ambient irradiance. */
-async function mirror(base64: string, squares: readonly Mirror[], roughness: number, ambient: number): Promise<number[][]> {
+async function mirror(base64: string, squares: readonly Mirror[], roughness: number, ambient: number,
+                      weights?: LayerWeights): Promise<number[][]> {
     const reflections = new SceneReflections(readReflections(Uint8Array.from(atob(base64), c => c.charCodeAt(0))));
     const material = new three.MeshStandardMaterial({color: 0xffffff, metalness: 1, roughness, side: three.DoubleSide});
     const mesh = new three.Mesh(new three.PlaneGeometry(1, 1), material);
     const scene = new three.Scene().add(mesh, new three.AmbientLight(0xffffff, ambient));
     reflections.add(scene);
+    if (weights) reflections.setWeights(weights);
     const colors = [];
     for (const {position, normal, toEye} of squares) {
         mesh.position.copy(vector(position));

@@ -3,7 +3,7 @@
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {floatOfHalf} from '../src/half.js';
-import {irradiance, levelRoughness, readReflections, Reflections} from '../src/index.js';
+import {irradiance, LayerWeights, levelRoughness, readReflections, Reflections} from '../src/index.js';
 import {Folder, kCourtyard} from '../tests/command.js';
 import {makeRandom} from '../tests/random.js';
 import {kCanTest, TestPage} from './three_browser.js';
@@ -28,14 +28,14 @@ function faceOf(d: Vector, size: number): {face: number; x: number; y: number} |
 describe.skipIf(!kCanTest)('reflection probes in three.js', () => {
     const folder = new Folder();
     let opened: TestPage;
-    let reflections: Reflections;
+    let baked: Reflections;
     let base64: string;
     beforeAll(async () => {
         folder.run('reflect', kCourtyard, '--box', '-4,0,-4,4,3,4', '-o', 'court.ktx2', '--cube-size', '32', '--samples', '4',
-                   '--no-sky', '--quiet');
+                   '--no-sky', '--layers', 'sun,sky', '--quiet');
         const bytes = folder.bytes('court.ktx2');
         base64 = Buffer.from(bytes).toString('base64');
-        reflections = readReflections(bytes);
+        baked = readReflections(bytes);
         opened = await TestPage.open('three_reflection_page.ts');
     });
     afterAll(async () => {
@@ -44,7 +44,7 @@ describe.skipIf(!kCanTest)('reflection probes in three.js', () => {
     });
 
     /** Radiance of level `level` towards where the mirrored ray of a square ends at the box. */
-    function mirrored({position, normal, toEye}: Mirror, level: number): Vector | undefined {
+    function mirrored({position, normal, toEye}: Mirror, level: number, reflections: Reflections): Vector | undefined {
         const {position: from, boxCenter, halfSize} = reflections.probes[0];
         const n = [...normal], eye = [...toEye];
         const ray = n.map((c, i) => 2 * dot(n, eye) * c - eye[i]);
@@ -80,17 +80,17 @@ describe.skipIf(!kCanTest)('reflection probes in three.js', () => {
         }).filter(({normal, toEye}) => dot(normal, toEye) > 0.5);
     }
 
-    async function compare(level: number, ambient: number): Promise<void> {
+    async function compare(level: number, ambient: number, reflections = baked, weights?: LayerWeights): Promise<void> {
         const roughness = levelRoughness(level, reflections.levelCount);
         const mirrors = makeMirrors(60 + level);
-        const colors = await opened.page.evaluate(([file, all, rough, light]) => {
+        const colors = await opened.page.evaluate(([file, all, rough, light, changed]) => {
             const {page} = window as unknown as Window;
-            return page.mirror(file, all, rough, light);
-        }, [base64, mirrors, roughness, ambient] as const);
+            return page.mirror(file, all, rough, light, changed);
+        }, [base64, mirrors, roughness, ambient, weights] as const);
         // Specular reflectance of white metal: three.js adds what facets reflect more than once to environments only.
         const shares: number[] = [];
         mirrors.forEach((each, i) => {
-            const light = mirrored(each, level);
+            const light = mirrored(each, level, reflections);
             if (!light) return;
             const there = luminance(irradiance(reflections.probes[0].sh, each.normal));
             const step = Math.min(Math.max((roughness - 0.1) / 0.4, 0), 1);
@@ -108,6 +108,11 @@ describe.skipIf(!kCanTest)('reflection probes in three.js', () => {
     test('rough metal shows the level of its roughness', async () => compare(1, 0));
 
     test('rough metal in the dark shows less', async () => compare(1, 0.2));
+
+    test('the weights of layers change what is mirrored, as `tetralight relight` does', async () => {
+        folder.run('relight', 'court.ktx2', '-o', 'relit.ktx2', '--weights', 'sun=0.25,sky=2', '--quiet');
+        await compare(1, 0.2, readReflections(folder.bytes('relit.ktx2')), {sun: 0.25, sky: 2});
+    });
 
     test('leave no errors or warnings', () => {
         expect(opened.problems).toEqual([]);

@@ -6,10 +6,15 @@
 //     each frame: reflections.update();
 import * as three from 'three';
 
+import {argumentError} from '../error.js';
+import {changedWeights, LayerWeights} from '../layers.js';
 import type {ReflectionProbe, Reflections} from '../reflections.js';
+import {kCoefficients} from '../sh.js';
 import {kMostCubes, mirrorCopy, ReflectionUniforms, setProbe} from './reflection_shader.js';
 
 type Mesh = three.Mesh<three.BufferGeometry, three.Material | three.Material[]>;
+
+const kLargestHalf = 65504;
 
 interface MirrorMesh {
     before: three.Material | three.Material[];
@@ -22,10 +27,15 @@ interface MirrorMesh {
  * The cube of a probe with its levels: radiance for a roughness r at level r (2 - r) (levels - 1). Shaders sample it with
  * directions in world axes. As an environment three.js would show it mirrored, and blur it again.
  */
-export function reflectionCube({size, levelCount, texels}: Reflections, probe: number): three.CubeTexture {
+export function reflectionCube(reflections: Reflections, probe: number): three.CubeTexture {
+    return makeCube(reflections, level => reflections.texels(probe, level));
+}
+
+/** `texels`: those of all faces of a level. */
+function makeCube({size, levelCount}: Reflections, texels: (level: number) => Uint16Array): three.CubeTexture {
     const faces = (level: number) => {
         const side = size >> level;
-        const all = texels(probe, level);
+        const all = texels(level);
         const each = 4 * side * side;
         return Array.from({length: 6}, (_, face) => new three.DataTexture(
             all.slice(face * each, (face + 1) * each), side, side, three.RGBAFormat, three.HalfFloatType));
@@ -44,12 +54,15 @@ export function reflectionCube({size, levelCount, texels}: Reflections, probe: n
 /** Lets meshes with standard and physical materials mirror the probes around them, in WebGLRenderer. */
 export class SceneReflections {
     private readonly cubes: three.CubeTexture[];
+    /** With the irradiance of the weights of now. */
+    private readonly probes: ReflectionProbe[];
     private readonly meshes = new Map<Mesh, MirrorMesh>();
     /** Probes in the order in which they cover each other. */
     private readonly order: number[];
 
     constructor(private readonly reflections: Reflections) {
         this.cubes = reflections.probes.map((_, probe) => reflectionCube(reflections, probe));
+        this.probes = reflections.probes.map(probe => ({...probe}));
         this.order = coveringOrder(reflections.probes);
     }
 
@@ -92,6 +105,42 @@ export class SceneReflections {
         }
     }
 
+    /** Changes the weights of layers of the bake; those that are not named are as they were baked. */
+    setWeights(weights: LayerWeights): void {
+        const {layers} = this.reflections;
+        if (layers.length === 0) throw argumentError('weights', 'change nothing: the reflection probes hold no layers');
+        const changed = changedWeights(layers.map(layer => layer.name), layers.map(layer => layer.weight), weights);
+        this.probes.forEach((probe, i) => {
+            this.cubes[i].dispose();
+            this.cubes[i] = makeCube(this.reflections, level => this.weighted(i, level, changed));
+            probe.sh = this.weightedSh(i, changed);
+        });
+        for (const [mesh, {uniforms}] of this.meshes) this.choose(mesh, uniforms);
+    }
+
+    private weighted(probe: number, level: number, weights: readonly number[]): Uint16Array {
+        const {reflections} = this;
+        const halves = reflections.texels(probe, level).slice();
+        const parts = weights.map((_, layer) => reflections.texels(probe, level, layer));
+        for (let i = 0; i < halves.length; ++i) {
+            if (i % 4 === 3) continue;  // not light
+            let sum = 0;
+            for (let k = 0; k < parts.length; ++k) sum += weights[k] * three.DataUtils.fromHalfFloat(parts[k][i]);
+            halves[i] = three.DataUtils.toHalfFloat(Math.min(sum, kLargestHalf));
+        }
+        return halves;
+    }
+
+    private weightedSh(probe: number, weights: readonly number[]): Float32Array {
+        const {layerIrradiance} = this.reflections;
+        const sum = new Float32Array(kCoefficients);
+        weights.forEach((weight, k) => {
+            const from = kCoefficients * (probe * weights.length + k);
+            for (let i = 0; i < kCoefficients; ++i) sum[i] += weight * layerIrradiance[from + i];
+        });
+        return sum;
+    }
+
     dispose(): void {
         for (const mesh of [...this.meshes.keys()]) this.remove(mesh);
         for (const cube of this.cubes) cube.dispose();
@@ -99,7 +148,7 @@ export class SceneReflections {
 
     /** The probes that are everywhere, then those with the nearest boxes. */
     private choose(mesh: Mesh, uniforms: ReflectionUniforms): void {
-        const {probes} = this.reflections;
+        const {probes} = this;
         const bounds = new three.Box3().setFromObject(mesh);
         const distances = probes.map(probe => distanceTo(probe, bounds));
         const nearest = new Set([...this.order].sort((a, b) => distances[a] - distances[b]).slice(0, kMostCubes));
