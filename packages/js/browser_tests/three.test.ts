@@ -4,7 +4,8 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {irradiance, kCoefficients} from '../src/index.js';
 import {makeRandom} from '../tests/random.js';
-import {compareSpheres, compareSquares, kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {compareSpheres, compareSquares} from './three_compare.js';
 import type {page as PageOfBrowser} from './three_page.js';
 import type {Kind} from './three_squares.js';
 
@@ -63,6 +64,23 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         colors.forEach((color, i) => {
             color.forEach((value, k) => expect(Math.abs(value - wanted[i][k]), `cell ${i}`).toBeLessThan(2e-3 * largest));
         });
+    });
+
+    test('a character has the light at its anchor, where its bone is', async () => {
+        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.skin(page.open(bytes), 'lambert', all, true);
+        }, [lit.base64, lit.squares] as const));
+    });
+
+    test('instances that move take new light, and no others are looked for', async () => {
+        const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.moving(page.open(bytes), all);
+        }, [lit.base64, lit.squares] as const);
+        const all = 50 * lit.squares.length;
+        expect(counts).toEqual([all, lit.squares.length, all / 2]);
+        for (const each of colors) compareSquares(lit, 'lambert', each);
     });
 
     test('objects follow the weights of layers', async () => {

@@ -80,6 +80,44 @@ export class Squares {
         return this.colorsOf(probes, makeInstances(kSquare, this.material(kind), squares), squares);
     }
 
+    /**
+     * Squares among many instances: as they are added, after the squares were exchanged, and after every other instance
+     * moved. `counts`: the positions whose light was found each time.
+     */
+    async moving(probes: ProbeVolume, squares: readonly Square[]): Promise<{colors: number[][][]; counts: number[]}> {
+        const kEach = 50;
+        const mesh = new three.InstancedMesh(kSquare, this.material('lambert'), kEach * squares.length);
+        const place = (i: number, square: Square) => mesh.setMatrixAt(kEach * i, placeOf(square));
+        const away = new three.Matrix4().makeTranslation(0, 500, 0);
+        for (let i = 0; i < mesh.count; ++i) mesh.setMatrixAt(i, away);
+        squares.forEach((square, i) => place(i, square));
+        mesh.frustumCulled = false;
+        const scene = new three.Scene().add(mesh);
+        const {volume} = probes;
+        const counts: number[] = [];
+        const batch = volume.batch.bind(volume);
+        volume.batch = (positions, ...others) => {
+            counts.push(positions.length / 3);
+            batch(positions, ...others);
+        };
+        const show = async () => {
+            mesh.instanceMatrix.needsUpdate = true;
+            probes.update();
+            const colors = [];
+            for (const square of squares) colors.push(await this.color(scene, square));
+            return colors;
+        };
+        probes.add(scene);
+        const colors = [await show()];
+        squares.forEach((square, i) => place((i + 1) % squares.length, square));
+        colors.push(await show());
+        for (let i = 1; i < mesh.count; i += 2) mesh.setMatrixAt(i, away.makeTranslation(0, 500, i));
+        colors.push(await show());
+        probes.update();
+        probes.remove(scene);
+        return {colors, counts};
+    }
+
     /** All squares as instances of a batch, after others were deleted. */
     async batch(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): Promise<number[][]> {
         const mesh = new three.BatchedMesh(2 * squares.length, 8, 12, this.material(kind));
@@ -93,15 +131,16 @@ export class Squares {
         return this.colorsOf(probes, mesh, squares);
     }
 
-    /** A square of which a bone moves all corners, in place of the mesh. */
-    async skin(probes: ProbeVolume, kind: Kind, squares: readonly Square[]): Promise<number[][]> {
+    /** A square of which the mesh moves all corners, or, with an anchor, a bone in it. */
+    async skin(probes: ProbeVolume, kind: Kind, squares: readonly Square[], isAnchored = false): Promise<number[][]> {
         const mesh = makeSkin(this.material(kind));
+        const moved = isAnchored ? mesh.skeleton.bones[0] : mesh;
         const scene = new three.Scene().add(mesh);
-        probes.add(scene);
+        mesh.frustumCulled = false;
+        probes.add(scene, isAnchored ? moved : undefined);
         const colors = [];
         for (const square of squares) {
-            mesh.matrix.identity().decompose(mesh.position, mesh.quaternion, mesh.scale);
-            mesh.applyMatrix4(placeOf(square));
+            placeOf(square).decompose(moved.position, moved.quaternion, moved.scale);
             scene.updateMatrixWorld();
             probes.update();
             colors.push(await this.color(scene, square));

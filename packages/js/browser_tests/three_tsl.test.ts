@@ -4,7 +4,8 @@ import {join} from 'node:path';
 
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
-import {bundle, compareSpheres, compareSquares, kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {bundle, kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {compareSpheres, compareSquares} from './three_compare.js';
 import type {Kind} from './three_squares.js';
 import type {page as PageOfBrowser} from './three_tsl_page.js';
 
@@ -40,6 +41,23 @@ describe.skipIf(!kCanTest)('as nodes of three.js', () => {
             }, [lit.base64, kind, lit.squares, exposure, isInstanced] as const);
             compareSpheres(lit, kind, exposure, spheres);
         });
+
+    test('a character has the light at its anchor, where its bone is', async () => {
+        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.skin(page.open(bytes), 'lambert', all, true);
+        }, [lit.base64, lit.squares] as const));
+    });
+
+    test('instances that move take new light, and no others are looked for', async () => {
+        const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.moving(page.open(bytes), all);
+        }, [lit.base64, lit.squares] as const);
+        const all = 50 * lit.squares.length;
+        expect(counts).toEqual([all, lit.squares.length, all / 2]);
+        for (const each of colors) compareSquares(lit, 'lambert', each);
+    });
 
     test('objects follow the weights of layers', async () => {
         const square = lit.squares[0];

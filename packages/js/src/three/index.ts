@@ -5,3 +5,4 @@ export type {ProbeVolumeOptions} from './probe_volume.js';
 export {ProbeVolumeHelper} from './probe_volume_helper.js';
 export type {ProbeVolumeHelperOptions} from './probe_volume_helper.js';
 export {SceneLightmaps} from './scene_lightmaps.js';
+export {reflectionCube, SceneReflections} from './scene_reflections.js';

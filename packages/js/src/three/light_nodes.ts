@@ -31,12 +31,13 @@ export function meshIrradiance(): Vec3 {
 
 /** Irradiance on the normal of an instance, whose light is in a texture: the texels of an instance follow each other. */
 export function instanceIrradiance(texture: three.DataTexture): Vec3 {
-    const texel = (i: number) => Fn((_: unknown, builder: NodeBuilder) => {
-        const place = int(instanceOf(builder)).mul(7).add(i);
+    const place = Fn((_: unknown, builder: NodeBuilder) => {
+        const first = int(instanceOf(builder)).mul(7);
         const width = widthOf(texture);
-        return textureLoad(texture, ivec2(place.mod(width), place.div(width)));
-    })() as unknown as Vec4;
-    return irradianceOf(kVectors.map(i => varying(texel(i)).setInterpolation(three.InterpolationSamplingType.FLAT) as Vec4));
+        return ivec2(first.mod(width), first.div(width));
+    })() as unknown as Node<'ivec2'>;
+    const flat = varying(place).setInterpolation(three.InterpolationSamplingType.FLAT) as Node<'ivec2'>;
+    return irradianceOf(kVectors.map(i => textureLoad(texture, flat.add(ivec2(i, 0))) as Vec4));
 }
 
 const widthOf = (texture: three.Texture | undefined) =>

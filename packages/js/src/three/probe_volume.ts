@@ -24,8 +24,9 @@ interface Before {
     material: three.Material | three.Material[];
 }
 
-/** A mesh that follows the light at the center of its bounds. */
+/** A mesh with the light at its anchor, or at the center of its bounds. */
 interface LitMesh extends Before {
+    anchor: three.Object3D | undefined;
     light: Float32Array;
     position: three.Vector3;
     hint: number;
@@ -43,14 +44,15 @@ export class ProbeVolume {
 
     /**
      * Lights all meshes of an object. Each gets its own copies of its materials, which `remove` takes away: change
-     * `mesh.material`. Basic and other materials without light stay as they are.
+     * `mesh.material`. Basic and other materials without light stay as they are. With an anchor, such as a bone or the
+     * object itself, all meshes have the light at its position, so that the parts of a character match; instances have their own.
      */
-    add(object: three.Object3D): void {
+    add(object: three.Object3D, anchor?: three.Object3D): void {
         object.traverse(child => {
             const mesh = child as Mesh;
             if (!mesh.isMesh || this.meshes.has(mesh)) return;
             if ('isInstancedMesh' in mesh || 'isBatchedMesh' in mesh) this.addInstances(child as InstancesMesh);
-            else this.addMesh(mesh);
+            else this.addMesh(mesh, anchor);
         });
     }
 
@@ -72,7 +74,7 @@ export class ProbeVolume {
     /** Finds the light of everything that moved. World matrices must be those of the frame. */
     update(): void {
         for (const [mesh, lit] of this.meshes) {
-            const position = centerOf(mesh);
+            const position = lit.anchor ? kPosition.setFromMatrixPosition(lit.anchor.matrixWorld) : centerOf(mesh);
             if (!position.equals(lit.position)) this.lightMesh(lit, position);
         }
         for (const {light} of this.instances.values()) light.update(this.volume, this.options);
@@ -95,9 +97,10 @@ export class ProbeVolume {
         return Array.isArray(mesh.material) ? lit : lit[0];
     }
 
-    private addMesh(mesh: Mesh): void {
+    private addMesh(mesh: Mesh, anchor: three.Object3D | undefined): void {
         const light = new Float32Array(kPacked);
-        this.meshes.set(mesh, {material: mesh.material, light, hint: kNone, position: new three.Vector3(NaN, NaN, NaN)});
+        const position = new three.Vector3(NaN, NaN, NaN);
+        this.meshes.set(mesh, {material: mesh.material, anchor, light, hint: kNone, position});
         mesh.material = this.copies(mesh, {sh: light});
     }
 
@@ -116,6 +119,8 @@ export class ProbeVolume {
     }
 }
 
+const kPosition = new three.Vector3();
+
 function centerOf(mesh: Mesh): three.Vector3 {
-    return centerOfBounds(mesh.geometry).clone().applyMatrix4(mesh.matrixWorld);
+    return kPosition.copy(centerOfBounds(mesh.geometry)).applyMatrix4(mesh.matrixWorld);
 }

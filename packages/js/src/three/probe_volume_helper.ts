@@ -6,8 +6,8 @@ import {kNone} from '../section_file.js';
 import {kCoefficients, kPacked, packSh} from '../sh.js';
 import type {Volume} from '../volume.js';
 import type {VolumeData} from '../volume_data.js';
-import {irradianceFunction, kReadTexture} from './light_shader.js';
-import {makePackedTexture, resizePackedTexture} from './packed_texture.js';
+import {irradianceFunction, kFindTexels} from './light_shader.js';
+import {PackedTexture} from './packed_texture.js';
 
 export interface ProbeVolumeHelperOptions {
     /** Of the balls, metres. A twelfth of the mean edge of the cells by default. */
@@ -17,7 +17,7 @@ export interface ProbeVolumeHelperOptions {
 }
 
 const kVertex = `#include <common>
-${kReadTexture}${irradianceFunction(i => `tetralightTexel(${i})`)}
+${kFindTexels}${irradianceFunction(i => `texelFetch(tetralightTexture, tetralightPlace() + ivec2(${i}, 0), 0)`)}
 varying vec3 vLight;
 void main() {
     vLight = tetralightIrradiance(normalize(mat3(modelMatrix) * normal)) * RECIPROCAL_PI;
@@ -36,15 +36,14 @@ void main() {
 export class ProbeVolumeHelper extends three.Object3D {
     readonly probes: three.InstancedMesh<three.BufferGeometry, three.ShaderMaterial>;
     readonly cells: three.LineSegments<three.BufferGeometry, three.LineBasicMaterial>;
-    private readonly texture = makePackedTexture();
-    private readonly packed: Float32Array;
+    private readonly light = new PackedTexture();
 
     constructor(readonly volume: Volume, options: ProbeVolumeHelperOptions = {}) {
         super();
         const {positions, info: {origin}} = volume.data;
         const ends = edgesOf(volume.data);
-        this.packed = resizePackedTexture(this.texture, volume.probeCount);
-        this.probes = makeBalls(positions, options.radius ?? meanLength(positions, ends) / 12, this.texture);
+        this.light.resize(volume.probeCount);
+        this.probes = makeBalls(positions, options.radius ?? meanLength(positions, ends) / 12, this.light.texture);
         this.cells = makeLines(positions, ends, options.color ?? 0x6fa8ff);
         for (const part of [this.probes, this.cells]) {
             part.position.fromArray(origin);
@@ -56,14 +55,16 @@ export class ProbeVolumeHelper extends three.Object3D {
     /** Shows the light of now: after `Volume.setWeights`. */
     update(): void {
         const {irradiance} = this.volume;
+        const packed = new Float32Array(kPacked);
         for (let i = 0; i < irradiance.length / kCoefficients; ++i) {
-            packSh(irradiance, i * kCoefficients, this.packed, i * kPacked);
+            packSh(irradiance, i * kCoefficients, packed, 0);
+            this.light.set(i, packed, 0);
         }
-        this.texture.needsUpdate = true;
+        this.light.uploadAll();
     }
 
     dispose(): void {
-        this.texture.dispose();
+        this.light.texture.dispose();
         this.probes.dispose();
         for (const part of [this.probes, this.cells]) {
             part.geometry.dispose();
