@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page with one ball in four engines, beside pictures of the command. TETRALIGHT_GALLERY_PICTURE names a file for a
+// picture of it.
+import {mkdirSync} from 'node:fs';
+import {join} from 'node:path';
+
+import type {Browser, Page} from 'playwright-core';
+import {build, preview, PreviewServer} from 'vite';
+import {afterAll, beforeAll, describe, expect, test} from 'vitest';
+
+import type {Gallery} from '../gallery/main.js';
+import {makeInput} from '../gallery/make_input.js';
+import {kStations} from '../gallery/road.js';
+import {Folder, kCommand, kCourtyard} from '../tests/command.js';
+import {kCanRun, kRoot, launch} from './open_page.js';
+
+const kRows = 5;  // four engines and the command
+
+const folder = new Folder();
+let browser: Browser | undefined;
+let server: PreviewServer | undefined;
+afterAll(async () => {
+    await browser?.close();
+    await server?.close();
+    folder.remove();
+});
+
+describe.skipIf(!kCanRun)('the gallery', () => {
+    let page: Page;
+    let gallery: Gallery;
+    beforeAll(async () => {
+        const [root, outDir] = [join(kRoot, 'gallery'), folder.file('page')];
+        const configFile = join(root, 'vite.config.ts');
+        await build({root, configFile, publicDir: false, logLevel: 'error', build: {outDir}});
+        mkdirSync(join(outDir, 'files'));
+        makeInput(kCommand, kCourtyard, join(outDir, 'files'), '--samples', '64');
+        server = await preview({root, configFile, logLevel: 'error', build: {outDir}, preview: {port: 0, host: '127.0.0.1'}});
+        browser = await launch();
+        page = await browser.newPage({viewport: {width: 1160, height: 1060}});
+        page.on('pageerror', error => console.error(error));
+        await page.goto(`${server.resolvedUrls!.local[0]}?volume=files/court.probes&still`);
+        await page.waitForFunction(() => 'gallery' in window, undefined, {timeout: 200_000});
+        gallery = await page.evaluate(() => (window as unknown as {gallery: Gallery}).gallery);
+    });
+
+    test('shows all engines and the command', () => {
+        expect(gallery.names.map(name => name.split(' ')[0]))
+            .toEqual(['three.js', 'PlayCanvas', 'Filament', 'Babylon', 'tetralight']);
+        expect(gallery.means.map(row => row.length)).toEqual(Array<number>(kRows).fill(kStations.length));
+    });
+
+    // Their spheres and their normals differ a little, and pictures of the command were rounded twice.
+    test('has balls whose mean colors differ by 1.5 / 255 at most', () => {
+        kStations.forEach(({name}, station) => {
+            for (const channel of [0, 1, 2]) {
+                const values = gallery.means.map(row => row[station][channel]);
+                expect(Math.max(...values) - Math.min(...values), `${name}, channel ${channel}`).toBeLessThan(1.5);
+            }
+        });
+    });
+
+    test('has balls whose light differs from station to station', () => {
+        const [red, blue] = [0, 2].map(channel => gallery.means[0].map(mean => mean[channel]));
+        const lamp = kStations.findIndex(({name}) => name === 'orange lamp');
+        const lawn = kStations.findIndex(({name}) => name === 'lawn');
+        expect(red[lamp]).toBeGreaterThan(blue[lamp]);
+        expect(blue[lawn]).toBeGreaterThan(red[lawn]);
+    });
+
+    test('is a picture', async () => {
+        const path = process.env.TETRALIGHT_GALLERY_PICTURE;
+        const picture = await page.locator('body').screenshot(path ? {path} : {});
+        expect(picture.length).toBeGreaterThan(50_000);
+    });
+});
