@@ -12,7 +12,9 @@ import type {MakeBallView} from './ball_view.js';
 import {eyeOf, kFieldOfView, kRadius} from './road.js';
 
 export const makeBabylonBall: MakeBallView = async (canvas, volume, exposure) => {
-    const engine = new Engine(canvas, true, {preserveDrawingBuffer: true});
+    const {width, height} = canvas;
+    const engine = new Engine(canvas, true, {preserveDrawingBuffer: true, useExactSrgbConversions: true});
+    engine.setSize(width, height);  // not that on the page
     const scene = new Scene(engine);
     scene.useRightHandedSystem = true;
     scene.clearColor = new Color4(0, 0, 0, 1);

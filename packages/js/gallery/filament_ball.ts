@@ -17,7 +17,8 @@ export const makeFilamentBall: MakeBallView = async (canvas, volume, exposure): 
     const renderer = engine.createRenderer();
     renderer.setClearOptions({clearColor: [0, 0, 0, 1], clear: true});
     const camera = engine.createCamera(Filament.EntityManager.get().create());
-    camera.setExposureDirect(exposure);
+    // Its factor is shutter time × sensitivity / 120 at aperture 1. setExposureDirect(x) has the factor 1 / x.
+    camera.setExposure(1, 1, 120 * exposure);
     camera.setProjectionFov(kFieldOfView, 1, 0.1, 10, Filament.Camera$Fov.VERTICAL);
     const view = makeView(engine, canvas);
     view.setCamera(camera);

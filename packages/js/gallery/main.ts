@@ -28,9 +28,9 @@ function makeCanvas(): HTMLCanvasElement {
     return canvas;
 }
 
-function makeCell(row: Element, kind: 'td' | 'th', content: Node | string = ''): HTMLElement {
+function makeCell(row: Element, kind: 'td' | 'th', ...content: (Node | string)[]): HTMLElement {
     const cell = document.createElement(kind);
-    cell.append(content);
+    cell.append(...content);
     row.append(cell);
     return cell;
 }
@@ -98,7 +98,7 @@ async function loadImage(url: URL): Promise<HTMLImageElement> {
 async function addPictures(input: Input, base: URL): Promise<Row> {
     const row = new Row();
     row.head.append('tetralight render');
-    note(row.head, 'by rays');
+    note(row.head, 'by rays, without an engine');
     for (const [i, {picture}] of input.stations.entries()) {
         const context = row.stations[i];
         context.drawImage(await loadImage(new URL(picture, base)), 0, 0, kSize, kSize);
@@ -135,7 +135,7 @@ function noteDifferences(engines: readonly Row[], pictures: Row): void {
     const wanted = pictures.means();
     for (const row of engines) {
         const differences = row.means().flatMap((mean, i) => mean.map((value, k) => Math.abs(value - wanted[i][k])));
-        note(row.head, `mean color differs by ${Math.max(...differences).toFixed(1)} / 255`);
+        note(row.head, `differs by ${Math.max(...differences).toFixed(1)} of 255`);
     }
 }
 

@@ -12,6 +12,9 @@ import {kUncompressed} from './tone_mapping.js';
 
 const kPictureSize = 256;
 
+/** What the command has a white, rough dielectric reflect diffusely: 0.96, and half of the 4 % of its specular part. */
+const kReflectivity = 0.98;
+
 export function makeInput(command: string, scene: string, folder: string, ...bakeOptions: string[]): void {
     mkdirSync(folder, {recursive: true});
     const run = (...args: string[]) => {
@@ -27,7 +30,7 @@ export function makeInput(command: string, scene: string, folder: string, ...bak
         const picture = `ball_${i + 1}.png`;
         writeFileSync(join(folder, 'ball.glb'), makeBall(position));
         run('render', 'ball.glb', 'court.probes', '-o', picture, '--quiet', '--show', 'bounce', '--probes', 'one',
-            '--exposure', String(exposure), ...sizeAndCamera({
+            '--exposure', String(exposure / kReflectivity), ...sizeAndCamera({
                 eye: eyeOf(position), target: position, fieldOfView: kFieldOfView, width: kPictureSize, height: kPictureSize}));
         input.stations.push({position, picture});
     });

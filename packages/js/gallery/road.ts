@@ -9,12 +9,12 @@ export interface Station {
 }
 
 export const kStations: readonly Station[] = [
-    {name: 'pergola', position: [-6.3, 0.6, 1.9]},
-    {name: 'lawn', position: [0.6, 0.6, 6.2]},
-    {name: 'blue lamp', position: [5.05, 0.55, 0.75]},
+    {name: 'blue lamp', position: [5.9, 0.6, -0.2]},
+    {name: 'lawn', position: [3.2, 0.6, 8.2]},
+    {name: 'pergola', position: [-6.9, 0.6, 3.2]},
     {name: 'door', position: [1.9, 0.65, 3.3]},
-    {name: 'orange lamp', position: [0.3, 0.65, -1.7]},
-    {name: 'red wall', position: [-3.1, 1.95, 1.3]},
+    {name: 'orange lamp', position: [-0.5, 0.9, -1.6]},
+    {name: 'red wall', position: [-3.2, 1.2, -1.2]},
 ];
 
 export const kRadius = 0.5;
@@ -29,7 +29,7 @@ export const kOutline = Math.tan(Math.asin(kRadius / Math.hypot(...kEye))) / Mat
 export const eyeOf = (ball: Position): Position => [ball[0] + kEye[0], ball[1] + kEye[1], ball[2] + kEye[2]];
 
 /** The camera of the picture of the whole scene. */
-export const kOverview = {eye: [6.5, 3.6, 15.5], target: [-0.4, 1.35, 0], fieldOfView: 36, width: 1120, height: 400};
+export const kOverview = {eye: [6.2, 4.4, 18.5], target: [-0.3, 0.75, 0], fieldOfView: 29, width: 1120, height: 400};
 
 /** The place of a position in that picture: from its left and from its top, as shares. */
 export function placeInOverview(position: Position): [number, number] {
