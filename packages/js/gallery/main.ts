@@ -87,6 +87,13 @@ async function addEngine(make: MakeBallView, volume: ArrayBuffer, exposure: numb
     return [row, view];
 }
 
+/** Servers of single pages answer with the page where a file is missing. */
+async function load(url: URL): Promise<Response> {
+    const response = await fetch(url);
+    if (response.ok && !response.headers.get('Content-Type')?.startsWith('text/html')) return response;
+    throw new Error(`${url.href}: is not there (npm run gallery:input)`);
+}
+
 async function loadImage(url: URL): Promise<HTMLImageElement> {
     const image = new Image();
     image.src = url.href;
@@ -157,8 +164,8 @@ async function animate(views: readonly BallView[], pictures: Row): Promise<void>
 async function show(): Promise<void> {
     const parameters = new URLSearchParams(location.search);
     const url = new URL(parameters.get('volume') ?? 'court.probes', location.href);
-    const bytes = await (await fetch(url)).arrayBuffer();
-    const input = await (await fetch(new URL('gallery.json', url))).json() as Input;
+    const bytes = await (await load(url)).arrayBuffer();
+    const input = await (await load(new URL('gallery.json', url))).json() as Input;
     document.querySelector<HTMLImageElement>('#overview')!.src = new URL(input.overview, url).href;
     addHeads();
     kStations.forEach(({position}, i) => mark(position, String(i + 1)));
@@ -175,4 +182,4 @@ async function show(): Promise<void> {
     pictures.live.getContext('2d')!.drawImage(pictures.stations[kStations.length - 1].canvas, 0, 0);
 }
 
-void show();
+show().catch((error: unknown) => document.body.prepend(String(error)));

@@ -2,7 +2,7 @@
 // Makes the files that the page reads, by the command: npm run gallery:input -- SCENE FOLDER
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {join} from 'node:path';
+import {join, resolve} from 'node:path';
 
 import {irradiance, read, Volume} from '../src/index.js';
 import {makeGlb, makeSphere} from './glb.js';
@@ -68,5 +68,5 @@ function makeBall(position: Position): Uint8Array {
 
 if (process.argv[1]?.endsWith('make_input.ts')) {
     const [scene, folder] = process.argv.slice(2);
-    makeInput(process.env.TETRALIGHT_COMMAND ?? 'tetralight', scene, folder);
+    makeInput(process.env.TETRALIGHT_COMMAND ?? 'tetralight', resolve(scene), resolve(folder));
 }
