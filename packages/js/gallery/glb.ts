@@ -44,7 +44,8 @@ export function makeGlb({positions, normals, indices}: Triangles): Uint8Array {
     const bounds = [Math.min, Math.max].map(pick => [0, 1, 2].map(axis =>
         positions.filter((_, i) => i % 3 === axis).reduce((a, b) => pick(a, b))));
     const json = {
-        asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0}],
+        asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}], // Not static: `tetralight` lights it as what moves.
+        nodes: [{mesh: 0, extras: {contribute_gi: false}}],
         extensionsUsed: ['KHR_materials_specular'], materials: [kMaterial],
         meshes: [{primitives: [{attributes: {POSITION: 0, NORMAL: 1}, indices: 2, material: 0}]}],
         accessors: [
