@@ -4,6 +4,7 @@ import math
 
 import bpy
 from blender_test import BlenderTest, add_lamp, add_plane, add_probes
+from tetralight.world import sky_of
 
 PROBE = (0, 0, 1)  # in Blender's axes
 UP = (0, 1, 0)  # in glTF's axes, as the following two
@@ -156,11 +157,24 @@ class Sky(ExportTest):
     def test_no_world_is_no_sky(self):
         self.assertNotIn("extras", self.exported()["scenes"][0])
 
-    def test_an_image_is_left_out(self):
+    def test_other_worlds_are_left_out(self):
         world = self.world((1, 1, 1))
-        image = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
-        world.node_tree.links.new(image.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+        noise = world.node_tree.nodes.new("ShaderNodeTexNoise")
+        world.node_tree.links.new(noise.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
         self.assertNotIn("extras", self.exported()["scenes"][0])
+        self.assertIn("neither constant nor", sky_of(bpy.context.scene).problem)
+
+    def test_an_image_that_cannot_be_read_is_an_error(self):
+        world = self.world((1, 1, 1))
+        picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+        picture.image = bpy.data.images.new("gone", 4, 4)
+        picture.image.source = "FILE"
+        picture.image.filepath = str(self.folder / "gone.hdr")
+        world.node_tree.links.new(picture.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+        add_probes(PROBE)
+        error = self.refusal(bpy.ops.tetralight.bake)
+        self.assertIn('the image "gone" of the world', error)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 class Surfaces(ExportTest):

@@ -15,6 +15,7 @@ from .probe_file import read_probes
 from .service import ServiceError
 from .settings import bake_settings, output_path
 from .show_probes import hide_probes, show_probes, shown_probes
+from .world import sky_of, write_sky
 
 SECONDS_BETWEEN_STEPS = 0.2
 MOST_PROBES_OF_A_GROUP = 1000000
@@ -40,9 +41,14 @@ def start_bake(context):
         raise BakeError("save the .blend file, or choose an output: there is no folder for the probe volume yet")
     if not output.parent.is_dir():
         raise BakeError(f"there is no folder {output.parent} for the probe volume")
-    bake = new_bake(context, bake_settings(context.scene))
+    settings = bake_settings(context.scene)
+    bake = new_bake(context, settings)
     try:
         warnings = write_scene(context, bake.scene)
+        sky = sky_of(context.scene)
+        if sky.image:
+            settings.sky = write_sky(sky, bake.scene.parent)
+            settings.order.update(sky.order())
     except BaseException:
         bake.close()
         raise
@@ -136,7 +142,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
     def _start(self, context):
         try:
             warnings = start_bake(context)
-        except (BakeError, ExportError, ServiceError, OSError) as error:
+        except (BakeError, ExportError, ServiceError, OSError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return False
         self._warn(warnings)
@@ -213,6 +219,10 @@ class TETRALIGHT_OT_export(bpy.types.Operator, ExportHelper):
         try:
             warnings = write_scene(context, beside)
             beside.replace(target)
+            sky = sky_of(context.scene)
+            if sky.image:
+                warnings.append(f'the file does not have the image "{sky.image.name}" of the world: give it to the '
+                                f"command as --sky, with --sky-intensity {sky.intensity:g} --sky-rotation {sky.rotation:g}")
         except (ExportError, OSError) as error:
             beside.unlink(missing_ok=True)
             self.report({"ERROR"}, str(error))
