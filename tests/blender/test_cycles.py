@@ -99,7 +99,7 @@ class AgainstCycles(BlenderTest):
         self.assert_agree(math.pi * numpy.array(sky))
 
     def image_world(self):
-        """Brightest at one place of the horizon: its light is in the first two bands of SH, which probes hold exactly."""
+        """Brightest at one place of the horizon: light of the first two bands of SH, which probes hold exactly."""
         width, height = 256, 128
         u = (numpy.arange(width) + 0.5) / width
         polar = (numpy.arange(height)[:, None] + 0.5) / height * math.pi

@@ -108,7 +108,7 @@ class AreaLights(ExportTest):
         lamp.rotation_euler.z = math.radians(90)
         document = self.exported()
         exported, = document["extensions"]["KHR_lights_punctual"]["lights"]
-        self.assertEqual({name: exported["extras"][name] for name in ("shape", "mode")}, {"shape": "rectangle", "mode": "baked"})
+        self.assertEqual((exported["extras"]["shape"], exported["extras"]["mode"]), ("rectangle", "baked"))
         self.assert_near(exported["extras"]["width"], 4, 1e-5)
         self.assert_near(exported["extras"]["height"], 1.5, 1e-5)
         lamp.location.z = 0  # below the probe, and shines down
@@ -209,7 +209,8 @@ class Surfaces(ExportTest):
 
         self.assertNotIn("COLOR_0", attributes())
         node = material.node_tree.nodes.new("ShaderNodeVertexColor")
-        material.node_tree.links.new(node.outputs["Color"], material.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+        surface = material.node_tree.nodes["Principled BSDF"].inputs
+        material.node_tree.links.new(node.outputs["Color"], surface["Base Color"])
         self.assertIn("COLOR_0", attributes())
 
 

@@ -232,7 +232,8 @@ class ServiceBake(Bake):
                 if facts["state"] == "done":
                     return facts["volume"]
                 if is_over:
-                    raise BakeError(f"{self._service.address}: {facts.get('error') or 'the bake was ' + facts['state']}")
+                    reason = facts.get("error") or "the bake was " + facts["state"]
+                    raise BakeError(f"{self._service.address}: {reason}")
                 if facts["state"] == "queued":
                     self.progress = Progress("Waiting for other bakes")
                 self._show_probes(facts)

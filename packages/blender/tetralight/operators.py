@@ -221,8 +221,9 @@ class TETRALIGHT_OT_export(bpy.types.Operator, ExportHelper):
             beside.replace(target)
             sky = sky_of(context.scene)
             if sky.image:
-                warnings.append(f'the file does not have the image "{sky.image.name}" of the world: give it to the '
-                                f"command as --sky, with --sky-intensity {sky.intensity:g} --sky-rotation {sky.rotation:g}")
+                options = f"--sky-intensity {sky.intensity:g} --sky-rotation {sky.rotation:g}"
+                warnings.append(f'the file does not have the image "{sky.image.name}" of the world: '
+                                f"give it to the command as --sky, with {options}")
         except (ExportError, OSError) as error:
             beside.unlink(missing_ok=True)
             self.report({"ERROR"}, str(error))
