@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import bpy
+from bpy.app.handlers import load_pre, persistent
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from bpy_extras.object_utils import AddObjectHelper, object_data_add
@@ -82,6 +83,12 @@ def cancel_bake():
         cancelled.bake.cancel()
 
 
+@persistent
+def cancel_before_loading(*_):
+    """The scene of the bake is about to go."""
+    cancel_bake()
+
+
 def show(scene, probes, path):
     settings = scene.tetralight
     shown = show_probes(scene, probes, path.name, settings.ball_radius, settings.exposure)
@@ -92,6 +99,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
     bl_idname = "tetralight.bake"
     bl_label = "Bake Probes"
     bl_description = "Export the scene and bake its light into a probe volume. Esc cancels"
+    bl_options = {"UNDO"}
 
     _timer = None
     _mine = None  # the RunningBake of this operator; the button may have ended it, and begun another one
@@ -333,9 +341,12 @@ CLASSES = (
 def register():
     for operator in CLASSES:
         bpy.utils.register_class(operator)
+    load_pre.append(cancel_before_loading)
 
 
 def unregister():
+    """Blender calls it at its end, too."""
     cancel_bake()
+    load_pre.remove(cancel_before_loading)
     for operator in reversed(CLASSES):
         bpy.utils.unregister_class(operator)
