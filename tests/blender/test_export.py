@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exported scenes have the light that Blender renders. Each has one light and one probe, whose light is known."""
+import json
 import math
 
 import bpy
-from blender_test import BlenderTest, add_lamp, add_plane, add_probes
+from blender_test import BlenderTest, add, add_lamp, add_plane, add_probes, command
 from tetralight.world import sky_of
 
 PROBE = (0, 0, 1)  # in Blender's axes
@@ -192,6 +193,62 @@ class Surfaces(ExportTest):
             array.relative_offset_displace = (axis == 0, axis == 1, 0)
         plane.location = (-200, -200, 0)
         self.assert_near(self.baked(DOWN, 256)[0], 2 * math.pi, 0.02)
+
+    def top(self):
+        """The highest coordinate of the only mesh."""
+        document = self.exported()
+        position = document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+        return document["accessors"][position]["max"][1]
+
+    def add_raised_plane(self):
+        """By 1.5 m, through a shape key."""
+        plane = add_plane()
+        plane.shape_key_add(name="Basis")
+        for point in plane.shape_key_add(name="up").data:
+            point.co.z = 3
+        plane.data.shape_keys.key_blocks["up"].value = 0.5
+        return plane
+
+    def test_shape_keys_count(self):
+        """The file has them as morph targets, which the bake applies."""
+        self.add_raised_plane()
+        bounds = json.loads(command("explain", self.export(), "--json"))["bounds"]
+        self.assertAlmostEqual(bounds["max"][1], 1.5, 5)
+
+    def test_shape_keys_count_below_modifiers(self):
+        self.add_raised_plane().modifiers.new("array", "ARRAY")
+        self.assertAlmostEqual(self.top(), 1.5, 5)
+
+    def test_poses_count(self):
+        plane = add_plane()
+        bpy.ops.object.armature_add()
+        skeleton = bpy.context.object
+        plane.vertex_groups.new(name="Bone").add(range(4), 1, "REPLACE")
+        plane.modifiers.new("armature", "ARMATURE").object = skeleton
+        skeleton.pose.bones["Bone"].location.y = 2  # along the bone, which is upright
+        self.assertAlmostEqual(self.top(), 2, 5)
+
+    def test_animated_objects_are_where_they_are_at_the_current_frame(self):
+        plane = add_plane()
+        for frame, height in ((1, 0), (11, 5)):
+            plane.location.z = height
+            plane.keyframe_insert("location", frame=frame)
+        bpy.context.scene.frame_set(11)
+        document = self.exported()
+        self.assertEqual(self.node(document, "Plane")["translation"], [0, 5, 0])
+        self.assertNotIn("animations", document)
+
+    def test_linked_collections_have_their_light(self):
+        """An instance of a collection with an area light: a node of its own, with the light."""
+        lamp = add_lamp("AREA", 100, location=(0, 0, 3), shape="DISK", size=0.05)
+        collection = bpy.data.collections.new("lamps")
+        collection.objects.link(lamp)
+        bpy.context.scene.collection.objects.unlink(lamp)
+        for x in (-5, 5):
+            instance = add("instance", None, (x, 0, 0))
+            instance.instance_type, instance.instance_collection = "COLLECTION", collection
+        nodes = [node for node in self.exported()["nodes"] if "KHR_lights_punctual" in node.get("extensions", {})]
+        self.assertEqual(len(nodes), 2)
 
     def test_objects_that_are_off_in_renders_are_left_out(self):
         add_plane().hide_render = True

@@ -31,7 +31,7 @@ EXPORTER_SETTINGS = (
     (("export_animations",), False),
     (("export_current_frame",), True),
     (("export_skins",), False),  # meshes as they are posed
-    (("export_morph",), False),
+    (("export_morph",), True),  # shape keys of meshes without modifiers, with their values
     (("will_save_settings",), False),
 )
 # The vertex colours count in glTF, although no node of the material reads them.

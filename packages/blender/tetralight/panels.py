@@ -138,7 +138,8 @@ class TETRALIGHT_PT_material(bpy.types.Panel):
         show_marks(self.layout, context.material, "bake_emission")
 
 
-CLASSES = (TETRALIGHT_PT_bake, TETRALIGHT_PT_shown, TETRALIGHT_PT_add, TETRALIGHT_PT_object, TETRALIGHT_PT_material)
+# In the order of the tab.
+CLASSES = (TETRALIGHT_PT_bake, TETRALIGHT_PT_object, TETRALIGHT_PT_shown, TETRALIGHT_PT_add, TETRALIGHT_PT_material)
 
 
 def register():
