@@ -48,10 +48,13 @@ def show_tab():
 def prepare():
     addon_utils.enable("tetralight", default_set=True)
     bpy.context.preferences.addons["tetralight"].preferences.command = os.environ["TETRALIGHT_COMMAND"]
-    bpy.context.preferences.view.show_splash = False
+    show_tab()
+    yield from add_scene()
+
+
+def add_scene():
     settings = bpy.context.scene.tetralight
     settings.quality, settings.output = "SAMPLES", str(FOLDER / "scene.probes")
-    show_tab()
     with bpy.context.temp_override(**window_context()):
         bpy.ops.tetralight.add_probe_group(size=(4, 4, 2), spacing=1, location=(0, 0, 2))
     yield
@@ -97,6 +100,19 @@ def cancel_by_the_button():
     assert (FOLDER / "scene.probes").read_bytes() == b"old"
 
 
+def cancel_by_loading_a_file():
+    """Nothing of the bake is left, and the next one can begin."""
+    with bpy.context.temp_override(**window_context()):
+        assert bpy.ops.tetralight.bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    bake = operators.running.bake
+    yield from wait_until(lambda: bake.progress.fraction is not None, "progress")
+    bpy.ops.wm.read_homefile()
+    yield from wait_until(lambda: operators.running is None, "cancelling")
+    assert bake.is_over() and not bake.scene.parent.exists()
+    yield  # Blender makes its windows
+    yield from add_scene()
+
+
 def bake_to_the_end():
     """At once after the bake that the button ended, whose operator has not noticed yet."""
     bpy.context.scene.tetralight.samples = 64
@@ -111,7 +127,7 @@ def bake_to_the_end():
 
 
 def all_steps():
-    for step in (prepare, draw_panels, cancel_by_escape, cancel_by_the_button, bake_to_the_end):
+    for step in (prepare, draw_panels, cancel_by_escape, cancel_by_loading_a_file, cancel_by_the_button, bake_to_the_end):
         print("step:", step.__name__, flush=True)
         yield from step()
 
@@ -132,4 +148,4 @@ def advance():
     return 0.1
 
 
-bpy.app.timers.register(advance, first_interval=0.5)
+bpy.app.timers.register(advance, first_interval=0.5, persistent=True)

@@ -2,8 +2,8 @@
 """run_blender.py MODULE: runs the tests of a module in Blender, without a window.
 run_blender.py --window: runs in_window.py in a Blender with a window on a virtual screen.
 
-Ends with 77, which CTest counts as skipped, where Blender, the NumPy that its glTF exporter needs, or the virtual screen
-is missing.
+Ends with 77, which CTest counts as skipped, where Blender, the NumPy that its glTF exporter needs, or the virtual
+screen is missing.
 """
 import os
 import shutil

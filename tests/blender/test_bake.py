@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bakes by the command: results, progress, cancelling and failures."""
+import re
 import stat
+import subprocess
 import time
 from pathlib import Path
 
 import bpy
-from blender_test import BlenderTest, add_plane, add_probes, add_lamp
+from blender_test import TETRALIGHT, BlenderTest, add_lamp, add_plane, add_probes
 from tetralight import operators
 from tetralight.baking import Bake, BakeSettings, CommandBake
 
+ROOT = Path(__file__).resolve().parents[2]
 PLACES = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (1, 2)]
 
 
@@ -124,6 +127,40 @@ class Cancelling(BakeTest):
         self.assertEqual(programs_with(temporary), [])
         self.assertEqual(self.files(), ["scene.probes"])
         self.assertEqual(self.output.read_bytes(), b"old")
+
+    def test_loading_another_file_cancels(self):
+        add_probes(*PLACES)
+        self.settings.samples = 16777216
+        bake = self.start()
+        bpy.ops.wm.read_homefile(use_empty=True)
+        self.assertIsNone(operators.running)
+        self.assertFalse(bake.scene.parent.exists())
+        self.assertEqual(programs_with(bake.scene.parent), [])
+
+    def test_quitting_blender_cancels(self):
+        script = f"""
+import sys
+sys.path[:0] = {[str(ROOT / "tests/blender"), str(ROOT / "packages/blender")]}
+import addon_utils, bpy, blender_test
+addon_utils.enable("tetralight", default_set=True)
+from tetralight import operators
+bpy.context.preferences.addons["tetralight"].preferences.command = {TETRALIGHT!r}
+blender_test.add_plane()
+blender_test.add_probes((0, 0, 1))
+settings = bpy.context.scene.tetralight
+settings.quality, settings.samples, settings.output = "SAMPLES", 16777216, {str(self.output)!r}
+operators.start_bake(bpy.context)
+while operators.running.bake.progress.fraction is None:
+    pass
+print("temporary:", operators.running.bake.scene.parent)
+"""
+        command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", script]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        temporary = Path(re.search("temporary: (.*)", done.stdout)[1])
+        self.assertFalse(temporary.exists())
+        self.assertEqual(programs_with(temporary), [])
+        self.assertEqual(self.files(), [])
 
     def test_disabling_the_add_on_cancels(self):
         add_probes(*PLACES)

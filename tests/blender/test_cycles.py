@@ -4,7 +4,10 @@ import math
 
 import bpy
 import numpy
-from blender_test import BlenderTest, add, add_lamp, add_plane
+from blender_test import BlenderTest, add, add_lamp, add_plane, add_probes
+from mathutils import Vector
+from tetralight.probe_file import read_probes
+from tetralight.show_probes import gltf_from_blender
 
 ALBEDO = 0.8
 HEIGHT = 2.0
@@ -23,12 +26,15 @@ class AgainstCycles(BlenderTest):
         material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
         plane.data.materials.append(material)
 
-    def rendered_irradiance(self):
-        """RGB irradiance at the origin, from radiance = albedo / π · irradiance."""
+    def rendered_irradiance(self, normal=(0, 0, 1)):
+        """RGB irradiance of the plane at the origin, from radiance = albedo / π · irradiance."""
         scene = bpy.context.scene
         camera = bpy.data.cameras.new("camera")
         camera.type, camera.ortho_scale = "ORTHO", 0.01
-        scene.camera = add("camera", camera, (0, 0, 1))
+        scene.camera = add("camera", camera, normal)
+        for thing in (scene.camera, bpy.data.objects["Plane"]):
+            thing.rotation_mode = "QUATERNION"
+            thing.rotation_quaternion = Vector(normal).to_track_quat("Z", "Y")
         scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 512, False
         scene.cycles.max_bounces = 0
         scene.render.resolution_x = scene.render.resolution_y = 4
@@ -91,6 +97,53 @@ class AgainstCycles(BlenderTest):
         bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 2
         sky = self.exported()["scenes"][0]["extras"]["sky"]["radiance"]
         self.assert_agree(math.pi * numpy.array(sky))
+
+    def image_world(self):
+        """Brightest at one place of the horizon: light of the first two bands of SH, which probes hold exactly."""
+        width, height = 256, 128
+        u = (numpy.arange(width) + 0.5) / width
+        polar = (numpy.arange(height)[:, None] + 0.5) / height * math.pi
+        light = 1 + 0.8 * numpy.sin(polar) * numpy.cos(2 * math.pi * (u - 0.3))
+        pixels = numpy.ones((height, width, 4))
+        pixels[:, :, :3] = light[:, :, None] * (1, 0.5, 0.25)
+        image = bpy.data.images.new("sky", width, height, float_buffer=True, is_data=True)
+        image.pixels.foreach_set(pixels.astype(numpy.float32).ravel())
+        world = bpy.data.worlds.new("world")
+        world.use_nodes = True
+        nodes, links = world.node_tree.nodes, world.node_tree.links
+        picture, mapping, place = (nodes.new(f"ShaderNode{name}") for name in ("TexEnvironment", "Mapping", "TexCoord"))
+        picture.image = image
+        mapping.inputs["Rotation"].default_value[2] = math.radians(100)
+        nodes["Background"].inputs["Strength"].default_value = 0.5
+        links.new(place.outputs["Generated"], mapping.inputs["Vector"])
+        links.new(mapping.outputs["Vector"], picture.inputs["Vector"])
+        links.new(picture.outputs["Color"], nodes["Background"].inputs["Color"])
+        bpy.context.scene.world = world
+        return image
+
+    def assert_image_is_sky(self):
+        bpy.data.objects["Plane"].tetralight_contribute_gi = "0"  # the probe sees nothing but the sky
+        add_probes((0, 0, 1))
+        self.settings.samples = 4096
+        bpy.ops.tetralight.bake()
+        probes = read_probes(self.output)
+        for normal in ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, 0, 1)):
+            with self.subTest(normal):
+                rendered = self.rendered_irradiance(normal)
+                baked = probes.irradiance(gltf_from_blender([normal]))[0, 0]
+                numpy.testing.assert_allclose(baked, rendered, rtol=0.02)
+
+    def test_an_image_without_a_file(self):
+        self.image_world()
+        self.assert_image_is_sky()
+
+    def test_an_image_of_a_file(self):
+        image = self.image_world()
+        image.filepath_raw = str(self.folder / "sky.hdr")
+        image.file_format = "HDR"
+        image.save()
+        self.assertFalse(image.is_dirty)
+        self.assert_image_is_sky()
 
 
 def form_factor(width, height, count=400):

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exported scenes have the light that Blender renders. Each has one light and one probe, whose light is known."""
+import json
 import math
 
 import bpy
-from blender_test import BlenderTest, add_lamp, add_plane, add_probes
+from blender_test import BlenderTest, add, add_lamp, add_plane, add_probes, command
+from tetralight.world import sky_of
 
 PROBE = (0, 0, 1)  # in Blender's axes
 UP = (0, 1, 0)  # in glTF's axes, as the following two
@@ -107,7 +109,7 @@ class AreaLights(ExportTest):
         lamp.rotation_euler.z = math.radians(90)
         document = self.exported()
         exported, = document["extensions"]["KHR_lights_punctual"]["lights"]
-        self.assertEqual({name: exported["extras"][name] for name in ("shape", "mode")}, {"shape": "rectangle", "mode": "baked"})
+        self.assertEqual((exported["extras"]["shape"], exported["extras"]["mode"]), ("rectangle", "baked"))
         self.assert_near(exported["extras"]["width"], 4, 1e-5)
         self.assert_near(exported["extras"]["height"], 1.5, 1e-5)
         lamp.location.z = 0  # below the probe, and shines down
@@ -156,11 +158,24 @@ class Sky(ExportTest):
     def test_no_world_is_no_sky(self):
         self.assertNotIn("extras", self.exported()["scenes"][0])
 
-    def test_an_image_is_left_out(self):
+    def test_other_worlds_are_left_out(self):
         world = self.world((1, 1, 1))
-        image = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
-        world.node_tree.links.new(image.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+        noise = world.node_tree.nodes.new("ShaderNodeTexNoise")
+        world.node_tree.links.new(noise.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
         self.assertNotIn("extras", self.exported()["scenes"][0])
+        self.assertIn("neither constant nor", sky_of(bpy.context.scene).problem)
+
+    def test_an_image_that_cannot_be_read_is_an_error(self):
+        world = self.world((1, 1, 1))
+        picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+        picture.image = bpy.data.images.new("gone", 4, 4)
+        picture.image.source = "FILE"
+        picture.image.filepath = str(self.folder / "gone.hdr")
+        world.node_tree.links.new(picture.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+        add_probes(PROBE)
+        error = self.refusal(bpy.ops.tetralight.bake)
+        self.assertIn('the image "gone" of the world', error)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 class Surfaces(ExportTest):
@@ -179,6 +194,62 @@ class Surfaces(ExportTest):
         plane.location = (-200, -200, 0)
         self.assert_near(self.baked(DOWN, 256)[0], 2 * math.pi, 0.02)
 
+    def top(self):
+        """The highest coordinate of the only mesh."""
+        document = self.exported()
+        position = document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+        return document["accessors"][position]["max"][1]
+
+    def add_raised_plane(self):
+        """By 1.5 m, through a shape key."""
+        plane = add_plane()
+        plane.shape_key_add(name="Basis")
+        for point in plane.shape_key_add(name="up").data:
+            point.co.z = 3
+        plane.data.shape_keys.key_blocks["up"].value = 0.5
+        return plane
+
+    def test_shape_keys_count(self):
+        """The file has them as morph targets, which the bake applies."""
+        self.add_raised_plane()
+        bounds = json.loads(command("explain", self.export(), "--json"))["bounds"]
+        self.assertAlmostEqual(bounds["max"][1], 1.5, 5)
+
+    def test_shape_keys_count_below_modifiers(self):
+        self.add_raised_plane().modifiers.new("array", "ARRAY")
+        self.assertAlmostEqual(self.top(), 1.5, 5)
+
+    def test_poses_count(self):
+        plane = add_plane()
+        bpy.ops.object.armature_add()
+        skeleton = bpy.context.object
+        plane.vertex_groups.new(name="Bone").add(range(4), 1, "REPLACE")
+        plane.modifiers.new("armature", "ARMATURE").object = skeleton
+        skeleton.pose.bones["Bone"].location.y = 2  # along the bone, which is upright
+        self.assertAlmostEqual(self.top(), 2, 5)
+
+    def test_animated_objects_are_where_they_are_at_the_current_frame(self):
+        plane = add_plane()
+        for frame, height in ((1, 0), (11, 5)):
+            plane.location.z = height
+            plane.keyframe_insert("location", frame=frame)
+        bpy.context.scene.frame_set(11)
+        document = self.exported()
+        self.assertEqual(self.node(document, "Plane")["translation"], [0, 5, 0])
+        self.assertNotIn("animations", document)
+
+    def test_linked_collections_have_their_light(self):
+        """An instance of a collection with an area light: a node of its own, with the light."""
+        lamp = add_lamp("AREA", 100, location=(0, 0, 3), shape="DISK", size=0.05)
+        collection = bpy.data.collections.new("lamps")
+        collection.objects.link(lamp)
+        bpy.context.scene.collection.objects.unlink(lamp)
+        for x in (-5, 5):
+            instance = add("instance", None, (x, 0, 0))
+            instance.instance_type, instance.instance_collection = "COLLECTION", collection
+        nodes = [node for node in self.exported()["nodes"] if "KHR_lights_punctual" in node.get("extensions", {})]
+        self.assertEqual(len(nodes), 2)
+
     def test_objects_that_are_off_in_renders_are_left_out(self):
         add_plane().hide_render = True
         self.assertNotIn("meshes", self.exported())
@@ -195,7 +266,8 @@ class Surfaces(ExportTest):
 
         self.assertNotIn("COLOR_0", attributes())
         node = material.node_tree.nodes.new("ShaderNodeVertexColor")
-        material.node_tree.links.new(node.outputs["Color"], material.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+        surface = material.node_tree.nodes["Principled BSDF"].inputs
+        material.node_tree.links.new(node.outputs["Color"], surface["Base Color"])
         self.assertIn("COLOR_0", attributes())
 
 

@@ -6,8 +6,8 @@ import struct
 import bpy
 import numpy
 from blender_test import BlenderTest, add_lamp, add_plane, add_probes, command
-from tetralight.probe_file import basis, read_probes
-from tetralight.show_probes import ATTRIBUTE, COLLECTION, ball, gltf_from_blender, shown_probes
+from tetralight.probe_file import Probes, basis, read_probes
+from tetralight.show_probes import ATTRIBUTE, COLLECTION, ball, gltf_from_blender, show_probes, shown_probes
 
 PLACES = [(x, y, z) for x in (-1, 1.5) for y in (-1, 1) for z in (1, 2)]
 LARGE = 3000  # more probes than smooth balls
@@ -81,6 +81,13 @@ class Balls(BakedTest):
     def test_the_mesh_is_valid(self):
         mesh = shown_probes(bpy.context.scene).data
         self.assertFalse(mesh.validate(verbose=True))
+
+
+class NoBalls(BlenderTest):
+    def test_a_volume_without_probes_shows_an_empty_mesh(self):
+        none = Probes(numpy.zeros((0, 3)), numpy.zeros((0, 9, 3)))
+        shown = show_probes(bpy.context.scene, none, "none", 0.1, 0)
+        self.assertEqual(len(shown.data.vertices), 0)
 
 
 class Ball(BlenderTest):

@@ -51,7 +51,8 @@ class RealService(ServiceTest):
         super().setUp()
         token_file = self.folder / "token"
         token_file.write_text(TOKEN)
-        arguments = ["serve", "--data", str(self.folder / "data"), "--listen", "127.0.0.1:0", "--token-file", str(token_file)]
+        arguments = ["serve", "--data", str(self.folder / "data"), "--listen", "127.0.0.1:0",
+                     "--token-file", str(token_file)]
         with open(self.folder / "log", "w") as log:
             server = subprocess.Popen([TETRALIGHT, *arguments], stdout=subprocess.PIPE, stderr=log, text=True)
         self.addCleanup(self.stop, server)

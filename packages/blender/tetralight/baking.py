@@ -36,6 +36,7 @@ class BakeSettings:
 
     order: dict = field(default_factory=dict)
     grid_spacing: float | None = None  # metres; None: the scene has probe groups
+    sky: Path | None = None  # an image, .hdr or .exr; None: the sky of the scene
     name: str = ""  # of scene and volume in the service; empty: none
 
 
@@ -138,14 +139,17 @@ class CommandBake(Bake):
 
     def _run(self):
         groups = []
+        inputs = {"scene": str(self.scene)}
+        if self.settings.sky:
+            inputs["sky"] = str(self.settings.sky)
         if self.settings.grid_spacing is not None:
             self.progress = Progress("Placing probes")
             spacing = self.settings.grid_spacing
-            self._job({"command": "grid", "scene": str(self.scene), "output": str(self._groups), "spacing": spacing})
+            self._job({"command": "grid", **inputs, "output": str(self._groups), "spacing": spacing})
             groups = [str(self._groups)]
         self.progress = Progress("Starting the bake")
-        self._job({**self.settings.order, "command": "bake", "scene": str(self.scene), "output": str(self.result),
-                   "groups": groups, "progress_file": str(self._progress_file)})
+        self._job({**self.settings.order, "command": "bake", **inputs, "output": str(self.result), "groups": groups,
+                   "progress_file": str(self._progress_file)})
         if not self.result.is_file():
             raise BakeError(f'"{self._command}" wrote no probe volume: is it Tetralight?')
 
@@ -203,15 +207,18 @@ class ServiceBake(Bake):
         name = {"name": self.settings.name} if self.settings.name else {}
         self.progress = Progress("Uploading the scene")
         path = "/v1/scenes" + (f"?name={urllib.parse.quote(self.settings.name, safe='')}" if name else "")
-        scene = self._service.upload(path, self.scene, "model/gltf-binary")["id"]
+        inputs = {"scene": self._service.upload(path, self.scene, "model/gltf-binary")["id"]}
         self._check_cancelled()
+        if self.settings.sky:
+            inputs["sky"] = self._service.upload("/v1/skies", self.settings.sky, "application/octet-stream")["id"]
+            self._check_cancelled()
         groups = []
         if self.settings.grid_spacing is not None:
             self.progress = Progress("Placing probes")
-            order = {"scene": scene, "spacing": self.settings.grid_spacing}
+            order = {**inputs, "spacing": self.settings.grid_spacing}
             groups = [self._service.post("/v1/grid", order)["id"]]
             self._check_cancelled()
-        order = {**self.settings.order, "scene": scene, "groups": groups, **name}
+        order = {**self.settings.order, **inputs, "groups": groups, **name}
         self._download(self._finished(self._service.post("/v1/bakes", order)["id"]))
 
     def _finished(self, bake):
@@ -225,7 +232,8 @@ class ServiceBake(Bake):
                 if facts["state"] == "done":
                     return facts["volume"]
                 if is_over:
-                    raise BakeError(f"{self._service.address}: {facts.get('error') or 'the bake was ' + facts['state']}")
+                    reason = facts.get("error") or "the bake was " + facts["state"]
+                    raise BakeError(f"{self._service.address}: {reason}")
                 if facts["state"] == "queued":
                     self.progress = Progress("Waiting for other bakes")
                 self._show_probes(facts)

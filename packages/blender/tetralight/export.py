@@ -12,6 +12,7 @@ from . import light_units
 from .gltf_file import read_glb, write_glb
 from .settings import KEY
 from .show_probes import keep_out_of_renders
+from .world import sky_of
 
 PUNCTUAL = "KHR_lights_punctual"
 
@@ -30,7 +31,7 @@ EXPORTER_SETTINGS = (
     (("export_animations",), False),
     (("export_current_frame",), True),
     (("export_skins",), False),  # meshes as they are posed
-    (("export_morph",), False),
+    (("export_morph",), True),  # shape keys of meshes without modifiers, with their values
     (("will_save_settings",), False),
 )
 # The vertex colours count in glTF, although no node of the material reads them.
@@ -98,16 +99,14 @@ def complete(document, scene):
 
 
 def _complete_sky(document, scene, warnings):
+    sky = sky_of(scene)
+    if sky.problem:
+        warnings.append(sky.problem)
     for exported in document.get("scenes", []):
         extras = exported.setdefault("extras", {})
         extras.pop(KEY, None)
-        if "sky" not in extras:
-            radiance, is_known = light_units.sky_of(scene.world)
-            if not is_known:
-                warnings.append(f'the world "{scene.world.name}" is not a constant Background and is left out: '
-                                "the scene's custom property \"sky\" may hold its radiance")
-            if radiance is not None:
-                extras["sky"] = {"radiance": [max(value, 0.0) for value in radiance]}
+        if sky.radiance:
+            extras["sky"] = {"radiance": sky.radiance}
         if not extras:
             del exported["extras"]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The light of Blender's lamps and worlds in glTF's members and Tetralight's extras.
+"""The light of Blender's lamps in glTF's members and Tetralight's extras.
 
 Intensities are those that Cycles renders: a sun of strength S gives S to a surface that faces it, a point or spot of
 P watts has P / 4π in each direction, and an area light of P watts has P / 4 along its axis, whatever its size.
@@ -60,18 +60,3 @@ def area_extras(light, scale):
 def is_circle(width, height):
     return abs(width - height) <= 1e-4 * max(width, height)
 
-
-def sky_of(world):
-    """The constant radiance of a world, and False if the world is not constant and its radiance not known."""
-    if world is None:
-        return None, True
-    if not (world.use_nodes and world.node_tree):
-        return list(world.color), True
-    outputs = [node for node in world.node_tree.nodes if node.type == "OUTPUT_WORLD" and node.is_active_output]
-    if not outputs or not outputs[0].inputs["Surface"].is_linked:
-        return None, True
-    node = outputs[0].inputs["Surface"].links[0].from_node
-    if node.type != "BACKGROUND" or any(socket.is_linked for socket in node.inputs):
-        return None, False
-    strength = node.inputs["Strength"].default_value
-    return [value * strength for value in node.inputs["Color"].default_value[:3]], True

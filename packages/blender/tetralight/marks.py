@@ -81,7 +81,8 @@ def number(path, label, description, default, low=0.0, high=LARGEST, kind=FloatP
         store(owner, path, default if is_on else None)
 
     value = kind(name=label, description=description, min=low, max=high, get=read, set=write)
-    use = BoolProperty(name=label, description=f"{description}. Off: Tetralight's default", get=is_present, set=set_present)
+    about_use = f"{description}. Off: Tetralight's default"
+    use = BoolProperty(name=label, description=about_use, get=is_present, set=set_present)
     return {path[-1]: value, f"use_{path[-1]}": use}
 
 
@@ -108,8 +109,8 @@ def layers(path, label, description):
         chosen = [i for i, is_chosen in enumerate(is_on) if is_chosen]
         store(owner, path, chosen if 0 < len(chosen) < LAYER_COUNT else None)
 
-    shown = BoolVectorProperty(name=label, description=description, size=LAYER_COUNT, subtype="LAYER", get=read, set=write)
-    return {path[-1]: shown}
+    shape = {"size": LAYER_COUNT, "subtype": "LAYER"}
+    return {path[-1]: BoolVectorProperty(name=label, description=description, get=read, set=write, **shape)}
 
 
 def prefixed(prefix, properties):
@@ -120,14 +121,18 @@ INHERITED = (None, "Inherited", "As the parent has it; without one, the first of
 
 STATIC_OBJECT = {
     **choice(("contribute_gi",), "Role", "Whether the bake sees the object",
-             INHERITED, (1, "Static", "It blocks and reflects light"), (0, "Moves", "Probes light it; the bake ignores it")),
+             INHERITED, (1, "Static", "It blocks and reflects light"),
+             (0, "Moves", "Probes light it; the bake ignores it")),
     **choice(("receive_gi",), "Light From", "What lights the static object",
              INHERITED, ("lightmap", "Lightmaps", "Its texels in a lightmap"), ("probes", "Probes", "Probes alone")),
-    **number(("lightmap_scale",), "Lightmap Scale", "Factor on the texels per metre of the lightmap; 0: no lightmap", 1.0),
+    **number(("lightmap_scale",), "Lightmap Scale",
+             "Factor on the texels per metre of the lightmap; 0: no lightmap", 1.0),
     **choice(("stitch_seams",), "Seams", "Seams between the charts of the object's lightmap",
-             INHERITED, (1, "Stitched", "Both sides of a seam get the same light"), (0, "As Baked", "Left as they are")),
+             INHERITED, (1, "Stitched", "Both sides of a seam get the same light"),
+             (0, "As Baked", "Left as they are")),
     **choice(("walkable",), "Walkable", "Whether the generator places probes above the object",
-             (None, "Inherited", "As the parent has it"), (1, "Yes", "Things move on it"), (0, "No", "Nothing moves on it")),
+             (None, "Inherited", "As the parent has it; without one, No"), (1, "Yes", "Things move on it"),
+             (0, "No", "Nothing moves on it")),
     **choice(("in_reflections",), "Reflections", "Whether reflection probes show the object",
              INHERITED, (1, "Shown", "Reflection probes show it"), (0, "Hidden", "It only lights what they show")),
 }
@@ -137,7 +142,8 @@ MOVING_OBJECT = {
              INHERITED, ("blend", "One Place", "By the light at its centre"),
              ("proxy_volume", "Proxy Volume", "By a grid of light around it, for large objects"),
              ("off", "Off", "By the ambient light of the volume")),
-    **text(("probe_anchor",), "Anchor", "Name of the object at whose origin the light is taken; empty: the centre of the bounds"),
+    **text(("probe_anchor",), "Anchor",
+           "Name of the object at whose origin the light is taken; empty: the centre of the bounds"),
 }
 
 PROBE_GROUP = {
@@ -154,16 +160,19 @@ ADJUSTMENT = prefixed("adjustment_", {
     **choice(("probe_adjustment", "forbid"), "Probes", "Whether there are probes in the volume",
              (None, "Unchanged", "As a larger volume has it"), (1, "Forbidden", "No probes"),
              (0, "Allowed", "Probes, inside a larger volume that forbids them")),
-    **number(("probe_adjustment", "spacing"), "Spacing", "Metres between the probes that the generator places", 1.0, 1e-3),
-    **number(("probe_adjustment", "validity"), "Validity", "1: probes are valid; 0: they are inside geometry", 1.0, 0.0, 1.0),
+    **number(("probe_adjustment", "spacing"), "Spacing",
+             "Metres between the probes that the generator places", 1.0, low=1e-3),
+    **number(("probe_adjustment", "validity"), "Validity",
+             "1: probes are valid; 0: they are inside geometry", 1.0, high=1.0),
     **number(("probe_adjustment", "intensity"), "Intensity", "Factor on the baked light of the probes", 1.0),
     **layers(("probe_adjustment", "rendering_layers"), "Rendering Layers", "Rendering layers of the probes"),
 })
 
 REFLECTION_PROBE = prefixed("reflection_", {
-    **number(("reflection_probe", "blend_distance"), "Blend Distance", "Metres over which the probe fades out outside its box", 0.25),
-    **number(("reflection_probe", "importance"), "Importance", "Probes of higher importance hide those of lower importance",
-             1, -(2**31) + 1, 2**31 - 1, IntProperty),
+    **number(("reflection_probe", "blend_distance"), "Blend Distance",
+             "Metres over which the probe fades out outside its box", 0.25),
+    **number(("reflection_probe", "importance"), "Importance",
+             "Probes of higher importance hide those of lower importance", 1, 1 - 2**31, 2**31 - 1, IntProperty),
     **number(("reflection_probe", "near"), "Near", "Surfaces nearer than this are not in the cube, metres", 0.0),
 })
 

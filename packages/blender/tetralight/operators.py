@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import bpy
+from bpy.app.handlers import load_pre, persistent
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from bpy_extras.object_utils import AddObjectHelper, object_data_add
@@ -15,6 +16,7 @@ from .probe_file import read_probes
 from .service import ServiceError
 from .settings import bake_settings, output_path
 from .show_probes import hide_probes, show_probes, shown_probes
+from .world import sky_of, write_sky
 
 SECONDS_BETWEEN_STEPS = 0.2
 MOST_PROBES_OF_A_GROUP = 1000000
@@ -40,9 +42,14 @@ def start_bake(context):
         raise BakeError("save the .blend file, or choose an output: there is no folder for the probe volume yet")
     if not output.parent.is_dir():
         raise BakeError(f"there is no folder {output.parent} for the probe volume")
-    bake = new_bake(context, bake_settings(context.scene))
+    settings = bake_settings(context.scene)
+    bake = new_bake(context, settings)
     try:
         warnings = write_scene(context, bake.scene)
+        sky = sky_of(context.scene)
+        if sky.image:
+            settings.sky = write_sky(sky, bake.scene.parent)
+            settings.order.update(sky.order())
     except BaseException:
         bake.close()
         raise
@@ -76,6 +83,12 @@ def cancel_bake():
         cancelled.bake.cancel()
 
 
+@persistent
+def cancel_before_loading(*_):
+    """The scene of the bake is about to go."""
+    cancel_bake()
+
+
 def show(scene, probes, path):
     settings = scene.tetralight
     shown = show_probes(scene, probes, path.name, settings.ball_radius, settings.exposure)
@@ -86,6 +99,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
     bl_idname = "tetralight.bake"
     bl_label = "Bake Probes"
     bl_description = "Export the scene and bake its light into a probe volume. Esc cancels"
+    bl_options = {"UNDO"}
 
     _timer = None
     _mine = None  # the RunningBake of this operator; the button may have ended it, and begun another one
@@ -136,7 +150,7 @@ class TETRALIGHT_OT_bake(bpy.types.Operator):
     def _start(self, context):
         try:
             warnings = start_bake(context)
-        except (BakeError, ExportError, ServiceError, OSError) as error:
+        except (BakeError, ExportError, ServiceError, OSError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return False
         self._warn(warnings)
@@ -213,6 +227,11 @@ class TETRALIGHT_OT_export(bpy.types.Operator, ExportHelper):
         try:
             warnings = write_scene(context, beside)
             beside.replace(target)
+            sky = sky_of(context.scene)
+            if sky.image:
+                options = f"--sky-intensity {sky.intensity:g} --sky-rotation {sky.rotation:g}"
+                warnings.append(f'the file does not have the image "{sky.image.name}" of the world: '
+                                f"give it to the command as --sky, with {options}")
         except (ExportError, OSError) as error:
             beside.unlink(missing_ok=True)
             self.report({"ERROR"}, str(error))
@@ -322,9 +341,12 @@ CLASSES = (
 def register():
     for operator in CLASSES:
         bpy.utils.register_class(operator)
+    load_pre.append(cancel_before_loading)
 
 
 def unregister():
+    """Blender calls it at its end, too."""
     cancel_bake()
+    load_pre.remove(cancel_before_loading)
     for operator in reversed(CLASSES):
         bpy.utils.unregister_class(operator)

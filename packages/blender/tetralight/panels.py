@@ -40,7 +40,7 @@ class TETRALIGHT_PT_bake(Tab, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.tetralight
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(settings, "output")
         layout.prop(settings, "quality")
         layout.prop(settings, "target_error" if settings.quality == "ERROR" else "samples")
@@ -66,7 +66,7 @@ class TETRALIGHT_PT_shown(Tab, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.tetralight
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(settings, "shows_probes")
         layout.prop(settings, "ball_radius")
         layout.prop(settings, "exposure")
@@ -92,7 +92,7 @@ class TETRALIGHT_PT_object(Tab, bpy.types.Panel):
 
     def draw(self, context):
         layout, thing = self.layout, context.object
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         if stored(thing, ("probe_adjustment",)) is not None:
             show_marks(layout, thing, *(f"adjustment_{name}" for name in (
                 "shape", "forbid", "spacing", "validity", "intensity", "rendering_layers")))
@@ -138,7 +138,8 @@ class TETRALIGHT_PT_material(bpy.types.Panel):
         show_marks(self.layout, context.material, "bake_emission")
 
 
-CLASSES = (TETRALIGHT_PT_bake, TETRALIGHT_PT_shown, TETRALIGHT_PT_add, TETRALIGHT_PT_object, TETRALIGHT_PT_material)
+# In the order of the tab.
+CLASSES = (TETRALIGHT_PT_bake, TETRALIGHT_PT_object, TETRALIGHT_PT_shown, TETRALIGHT_PT_add, TETRALIGHT_PT_material)
 
 
 def register():

@@ -25,10 +25,11 @@ class TetralightPreferences(bpy.types.AddonPreferences):
         name="Command", description="Path of the program tetralight, or its name if it is on PATH", subtype="FILE_PATH",
         default="tetralight")
     address: StringProperty(
-        name="Address", description="Address of the service, such as http://127.0.0.1:8080", default="http://127.0.0.1:8080")
+        name="Address", description="Address of the service, such as http://127.0.0.1:8080",
+        default="http://127.0.0.1:8080")
     token: StringProperty(
-        name="Token", description=f"Token of the service. Empty: the environment variable {TOKEN_VARIABLE}, if it is set",
-        subtype="PASSWORD")
+        name="Token", subtype="PASSWORD",
+        description=f"Token of the service. Empty: the environment variable {TOKEN_VARIABLE}, if it is set")
 
     def draw(self, context):
         layout = self.layout

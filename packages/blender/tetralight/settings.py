@@ -22,8 +22,8 @@ class TetralightSettings(bpy.types.PropertyGroup):
         ],
     )
     target_error: FloatProperty(
-        name="Target Error", description="Relative standard error of the light of a probe, percent", subtype="PERCENTAGE",
-        default=0.5, min=0.01, max=100.0)
+        name="Target Error", description="Relative standard error of the light of a probe, percent",
+        subtype="PERCENTAGE", default=0.5, min=0.01, max=100.0)
     samples: IntProperty(name="Samples", description="Samples per probe", default=256, min=1, max=16777216)
     mixed_lighting: EnumProperty(
         name="Mixed Lights",
@@ -43,9 +43,11 @@ class TetralightSettings(bpy.types.PropertyGroup):
         name="Name", description="Name of the scene and of its volume in the service. Empty: they have no name")
     shows_probes: BoolProperty(name="Show Probes", description="Show the probes after the bake", default=True)
     ball_radius: FloatProperty(
-        name="Ball Radius", description="Radius of the balls that show probes, metres", default=0.1, min=1e-4, max=1000.0)
+        name="Ball Radius", description="Radius of the balls that show probes, metres", default=0.1, min=1e-4,
+        max=1000.0)
     exposure: FloatProperty(
-        name="Exposure", description="Stops by which the colours of the balls are brighter than the light", min=-20.0, max=20.0)
+        name="Exposure", description="Stops by which the colours of the balls are brighter than the light", min=-20.0,
+        max=20.0)
 
 
 def bake_settings(scene):

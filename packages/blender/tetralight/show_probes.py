@@ -18,7 +18,7 @@ MOST_SMOOTH_BALLS = 2000  # more probes have balls of fewer vertices
 def show_probes(scene, probes, name, radius, exposure):
     """Replaces what is shown in the scene. Returns the object."""
     hide_probes(scene)
-    normals, faces = ball(3 if len(probes) <= MOST_SMOOTH_BALLS else 1)
+    normals, faces = ball(4 if len(probes) <= MOST_SMOOTH_BALLS else 1)
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(*_balls(probes, normals, faces, radius))
     colors = mesh.color_attributes.new(name=ATTRIBUTE, type="FLOAT_COLOR", domain="POINT")
