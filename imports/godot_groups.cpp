@@ -172,9 +172,10 @@ class GodotScene {
         }
         if (!files.empty()) files += ")";
         return str_cat(instance_count_,
-                       instance_count_ == 1 ? " instanced scene is" : " instanced scenes are",
-                       " not followed, and probes in them are not read", files,
-                       "; in Godot, Make Local puts their nodes into this file");
+                       instance_count_ == 1
+                           ? " instanced scene is not followed, and its probes are not read"
+                           : " instanced scenes are not followed, and their probes are not read",
+                       files, "; in Godot, Make Local puts their nodes into this file");
     }
 
     [[nodiscard]] std::vector<std::string> warnings(const std::string& path) const {

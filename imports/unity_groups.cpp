@@ -19,9 +19,10 @@ using detail::UnityPlace;
 using detail::UnityProbes;
 
 std::string prefab_text(size_t count) {
-    return str_cat(count, count == 1 ? " prefab instance is" : " prefab instances are",
-                   " not followed, and probes in them are not read; in Unity, Unpack puts their "
-                   "objects into this file");
+    return str_cat(count,
+                   count == 1 ? " prefab instance is not followed, and its probes are not read"
+                              : " prefab instances are not followed, and their probes are not read",
+                   "; in Unity, Unpack Prefab puts their objects into this file");
 }
 
 class UnityScene {
@@ -41,24 +42,30 @@ class UnityScene {
         if (file_.prefab_instance_count > 0)
             result_.warnings.push_back(
                 str_cat(path_, ": ", prefab_text(file_.prefab_instance_count)));
-        if (file_.probes.empty()) {
-            const size_t count = file_.prefab_instance_count;
-            return Error{ErrorCode::NotFound, "groups", path_,
-                         str_cat(path_, ": has no LightProbeGroup", count == 0 ? "" : "; ",
-                                 count == 0 ? std::string() : prefab_text(count))};
-        }
+        if (result_.groups.empty()) return none();
         return std::move(result_);
     }
 
   private:
+    [[nodiscard]] Error none() const {
+        const size_t prefab_count = file_.prefab_instance_count;
+        std::string reason = "has no LightProbeGroup";
+        if (!first_left_out_.empty())
+            reason += " that can be read: " + first_left_out_;
+        else if (prefab_count > 0)
+            reason += "; " + prefab_text(prefab_count);
+        return {ErrorCode::NotFound, "groups", path_, str_cat(path_, ": ", reason)};
+    }
+
     Status add(UnityProbes& probes) {
         const auto place = places_.place(probes.object);
         if (!place) return place.error();
         std::string path = places_.path_of(probes.object);
         if (const char* const reason = reason_to_leave_out(probes, *place)) {
-            result_.warnings.push_back(str_cat(path_, ": the LightProbeGroup of ",
-                                               detail::quoted_text(path),
-                                               " is left out: ", reason));
+            const std::string text =
+                str_cat("that of ", detail::quoted_text(path), " is left out: ", reason);
+            if (first_left_out_.empty()) first_left_out_ = text;
+            result_.warnings.push_back(str_cat(path_, ": LightProbeGroup: ", text));
             return Ok{};
         }
         return add_group(probes, *place, std::move(path));
@@ -100,6 +107,7 @@ class UnityScene {
     detail::UnityPlaces places_;
     std::unordered_set<std::string> names_;
     ImportedGroups result_;
+    std::string first_left_out_;
 };
 
 }  // namespace

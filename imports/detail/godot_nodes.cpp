@@ -88,7 +88,7 @@ Result<uint32_t> GodotNodes::add(const GodotNodeText& text) {
     GodotNode& node = nodes_[*index];
     const bool is_of_other_scene = text.type.empty() && !text.is_instance;
     if (text.is_top_level || !is_spatial(text.type)) {
-        // For the children of a node that is not spatial, the world begins anew.
+        // Children of a node that is not spatial are placed in the world.
         node.world_from_node = glm::dmat4(1.0);
         node.is_placed = true;
         node.assumed_root = GodotNode::kNoParent;

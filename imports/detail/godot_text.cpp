@@ -224,7 +224,7 @@ Result<glm::dmat4> parse_godot_transform(std::string_view value) {
     for (size_t i = 0; i < numbers.size(); ++i) {
         const size_t length = list.find(',');
         const bool is_last = i + 1 == numbers.size();
-        if (is_last != (length == std::string_view::npos)) return wrong("has not 12 numbers");
+        if (is_last != (length == std::string_view::npos)) return wrong("does not have 12 numbers");
         const auto number =
             parse_number(trimmed(list.substr(0, length)), str_cat("transform: number ", i));
         if (!number) return number.error();

@@ -35,7 +35,7 @@ Result<UnityDocument> parse_header(std::string_view header, size_t line) {
     const auto class_id = take_integer(rest, "--- !u!");
     if (!class_id) return header_error(line, header, "does not begin with --- !u!CLASS");
     const auto id = take_integer(rest, " &");
-    if (!id) return header_error(line, header, "has not &ID, an integer of 64 bits");
+    if (!id) return header_error(line, header, "does not have &ID, an integer of 64 bits");
     document.class_id = *class_id;
     document.id = *id;
     document.is_stripped = rest == " stripped";

@@ -84,7 +84,8 @@ Result<UnityPlace> UnityPlaces::place_transform(UnityId transform) {
 }
 
 std::string UnityPlaces::path_of(UnityId object) const {
-    std::vector<std::string_view> names = {file_.objects.at(object).name};
+    const UnityObject& last = file_.objects.at(object);
+    std::vector<std::string_view> names = {last.is_stripped ? kStrippedName : last.name};
     size_t length = names[0].size();
     const auto own = file_.transform_of_object.find(object);
     UnityId id =
