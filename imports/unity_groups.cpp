@@ -83,6 +83,10 @@ class UnityScene {
         if (name.empty() || names_.contains(name))
             name += str_cat(name.empty() ? "#" : " #", probes.id);
         if (auto status = detail::check_group_name(name); !status) return status;
+        if (!names_.insert(name).second) {
+            return Error{ErrorCode::Corrupt, "m_Name", name.substr(0, 60),
+                         str_cat("another group is named ", detail::quoted_text(name))};
+        }
         for (size_t i = 0; i < probes.positions.size(); ++i) {
             glm::dvec3& p = probes.positions[i];
             p = glm::dvec3(place.world_from_object * glm::dvec4(p, 1.0));
@@ -97,7 +101,6 @@ class UnityScene {
         if (group.positions.empty())
             group.empty_warning = str_cat(path_, ": the LightProbeGroup of ",
                                           detail::quoted_text(name), " has no probes");
-        names_.insert(std::move(name));
         result_.groups.push_back(std::move(group));
         return Ok{};
     }

@@ -23,6 +23,32 @@ TEST(ImportGroups, ReadsFilesOfOtherExtensionsAsJson) {
     EXPECT_EQ(import_error("a.scn", "RSRC").find("a.scn: "), 0u);
 }
 
+/// The positions of all groups of a file in tests/imports/files, sorted.
+std::vector<glm::dvec3> sample_positions(const std::string& name) {
+    const auto imported = import_groups(TETRALIGHT_IMPORT_FILES "/" + name);
+    EXPECT_TRUE(imported) << error_text(imported.error());
+    std::vector<glm::dvec3> positions;
+    if (!imported) return positions;
+    for (const ProbeGroup& group : imported->groups)
+        positions.insert(positions.end(), group.positions.begin(), group.positions.end());
+    // By values that differ by more than the error of the rotations.
+    std::ranges::sort(positions, {},
+                      [](const glm::dvec3& p) { return p.x + 100 * p.y + 20 * p.z; });
+    return positions;
+}
+
+TEST(ImportGroups, OneSetOfProbesIsTheSameInAllFormats) {
+    const std::vector<glm::dvec3> expected = {
+        {0, 0.5, 0}, {8, 0.5, 0}, {1, 1.5, 1}, {0, 0.5, 8}, {0, 8.5, 0}};
+    for (const char* name : {"probes.csv", "level.tscn", "level.unity"}) {
+        const auto positions = sample_positions(name);
+        ASSERT_EQ(positions.size(), expected.size()) << name;
+        for (size_t i = 0; i < expected.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                EXPECT_NEAR(positions[i][axis], expected[i][axis], 1e-12) << name << " " << i;
+    }
+}
+
 TEST(ImportGroups, ExtensionsAreSorted) {
     const auto extensions = group_file_extensions();
     EXPECT_TRUE(std::ranges::is_sorted(extensions));

@@ -281,6 +281,12 @@ TEST(UnityGroups, ErrorsNameWrongIdsAndHeaders) {
         "0");
 }
 
+TEST(UnityGroups, ErrorsNameAGroupThatIsThereThreeTimes) {
+    const std::string group = probes_text(12, 10, kTwoPositions);
+    EXPECT_EQ(from_name(unity_error(hall() + group + group), "LightProbeGroup 12"),
+              "LightProbeGroup 12: another group is named \"Hall #12\"");
+}
+
 TEST(UnityGroups, PositionsThatBecomeInfiniteAreAnError) {
     EXPECT_EQ(
         from_name(unity_error(kHead + text_of({.id = 10, .name = "A", .scale = {1e300, 1, 1}}) +
