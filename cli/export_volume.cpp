@@ -121,7 +121,7 @@ struct VolumeExport {
             error.value = volume_path;
             return error;
         }
-        return error.in("--" + error.field);
+        return error.in(error.field == "places" ? "--at" : "--" + error.field);
     }
 
     /// The files that are written, checked. Those beside the first are in its folder.

@@ -185,6 +185,20 @@ TEST_F(ExportVolume, SettingsBelongToFormats) {
                          "v.probes: contains probes; --as names a format for them"));
 }
 
+TEST_F(ExportVolume, PlacesAreThoseOfTheOption) {
+    succeed({"export", "v.probes", "--as", "playcanvas", "--at", "1,1,1", "--at", "0,2,0.5", "-o",
+             "p.json"});
+    const Json places = Json::parse(read("p.json"))["places"];
+    ASSERT_EQ(places.size(), 2u);
+    EXPECT_EQ(places[1]["position"], (Json{0, 2, 0.5}));
+    succeed({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "-o", "p.txt"});
+    EXPECT_EQ(run_json({"export", "v.probes", "--as", "babylon", "-o", "p.glb"})["lost"][1],
+              "The light of all places but 2, 2, 2.");
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "--at",
+                               "2,2,2", "-o", "p.txt"}),
+                         "--at: the format holds the light of one place, and there are 2"));
+}
+
 TEST_F(ExportVolume, OldFilesStay) {
     write("old.csv", "old");
     fail({"export", "none.probes", "-o", "old.csv"});
