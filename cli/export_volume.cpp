@@ -184,6 +184,10 @@ const ExportTarget* chosen_export_target(const Values& values) {
     const auto has_extension = [&](const ExportTarget& target) {
         return target.extension == extension;
     };
+    // Lightmaps and reflection probes have these, too.
+    for (const char* shared : {".exr", ".ktx2", ".png", ".glb"}) {
+        if (extension == shared) return nullptr;
+    }
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;
     return &*std::ranges::find_if(targets, has_extension);

@@ -49,7 +49,12 @@ constexpr ExportTarget kTargets[] = {
      .extension = ".csv",
      .help = "one probe a line, for spreadsheets",
      .loses = "Cells, walls between probes, layers and lights.",
-     .make = detail::export_csv}};
+     .make = detail::export_csv},
+    {.name = "blender",
+     .extension = ".py",
+     .help = "a script that makes a mesh in Blender, whose vertices have the light as attributes",
+     .loses = "Cells, walls between probes, layers and lights.",
+     .make = detail::export_blender}};
 
 }  // namespace
 

@@ -11,6 +11,7 @@ using MakeExport = Result<ExportedVolume>(const ProbeVolumeView& volume,
                                           const ExportSettings& settings);
 
 MakeExport export_babylon;
+MakeExport export_blender;
 MakeExport export_csv;
 MakeExport export_filament;
 MakeExport export_json;
