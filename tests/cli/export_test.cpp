@@ -153,8 +153,8 @@ TEST_F(ExportVolume, TheOutputNamesTheFormatIfOnlyOneHasItsExtension) {
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.vtu"})["as"], "vtu");
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.csv"})["as"], "csv");
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.json"}), "--as is required"));
-    EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", "v.glb"}),
-                         "v.probes: contains probes; --as names a format for them"));
+    // Lightmaps have this one, too.
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "--as", "csv", "-o", "v.txt"}),
                          "--output: v.txt: a file for csv ends with .csv"));
 }
