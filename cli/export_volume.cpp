@@ -121,7 +121,7 @@ struct VolumeExport {
             error.value = volume_path;
             return error;
         }
-        return error.in("--" + error.field);
+        return error.in(error.field == "places" ? "--at" : "--" + error.field);
     }
 
     /// The files that are written, checked. Those beside the first are in its folder.
@@ -184,6 +184,10 @@ const ExportTarget* chosen_export_target(const Values& values) {
     const auto has_extension = [&](const ExportTarget& target) {
         return target.extension == extension;
     };
+    // Lightmaps and reflection probes have these, too.
+    for (const char* shared : {".exr", ".ktx2", ".png", ".glb"}) {
+        if (extension == shared) return nullptr;
+    }
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;
     return &*std::ranges::find_if(targets, has_extension);

@@ -10,8 +10,12 @@ namespace tetralight::detail {
 using MakeExport = Result<ExportedVolume>(const ProbeVolumeView& volume,
                                           const ExportSettings& settings);
 
+MakeExport export_babylon;
+MakeExport export_blender;
 MakeExport export_csv;
+MakeExport export_filament;
 MakeExport export_json;
+MakeExport export_playcanvas;
 MakeExport export_three_grid;
 MakeExport export_vtu;
 

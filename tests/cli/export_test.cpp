@@ -153,6 +153,8 @@ TEST_F(ExportVolume, TheOutputNamesTheFormatIfOnlyOneHasItsExtension) {
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.vtu"})["as"], "vtu");
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.csv"})["as"], "csv");
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.json"}), "--as is required"));
+    // Lightmaps have this one, too.
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "--as", "csv", "-o", "v.txt"}),
                          "--output: v.txt: a file for csv ends with .csv"));
 }
@@ -183,6 +185,20 @@ TEST_F(ExportVolume, SettingsBelongToFormats) {
                          "--bounds: the minimum is not below the maximum along each axis"));
     EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", "v.png"}),
                          "v.probes: contains probes; --as names a format for them"));
+}
+
+TEST_F(ExportVolume, PlacesAreThoseOfTheOption) {
+    succeed({"export", "v.probes", "--as", "playcanvas", "--at", "1,1,1", "--at", "0,2,0.5", "-o",
+             "p.json"});
+    const Json places = Json::parse(read("p.json"))["places"];
+    ASSERT_EQ(places.size(), 2u);
+    EXPECT_EQ(places[1]["position"], (Json{0, 2, 0.5}));
+    succeed({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "-o", "p.txt"});
+    EXPECT_EQ(run_json({"export", "v.probes", "--as", "babylon", "-o", "p.glb"})["lost"][1],
+              "The light of all places but 2, 2, 2.");
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "--at",
+                               "2,2,2", "-o", "p.txt"}),
+                         "--at: the format holds the light of one place, and there are 2"));
 }
 
 TEST_F(ExportVolume, OldFilesStay) {
