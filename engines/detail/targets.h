@@ -11,8 +11,10 @@ using MakeExport = Result<ExportedVolume>(const ProbeVolumeView& volume,
                                           const ExportSettings& settings);
 
 MakeExport export_csv;
+MakeExport export_godot;
 MakeExport export_json;
 MakeExport export_three_grid;
+MakeExport export_unity;
 MakeExport export_vtu;
 
 }  // namespace tetralight::detail
