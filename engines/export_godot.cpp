@@ -37,10 +37,9 @@ void append_numbers(std::string& text, Numbers... numbers) {
 void append_bsp(std::string& text, const std::vector<BspNode>& nodes) {
     append_packed(text, "PackedInt32Array", nodes.size(), [&](std::string& out, size_t i) {
         const BspNode& node = nodes[i];
-        append_numbers(
-            out, std::bit_cast<int32_t>(node.normal.x), std::bit_cast<int32_t>(node.normal.y),
-            std::bit_cast<int32_t>(node.normal.z), std::bit_cast<int32_t>(node.distance), node.over,
-            node.under);
+        append_numbers(out, std::bit_cast<int32_t>(node.normal.x),
+                       std::bit_cast<int32_t>(node.normal.y), std::bit_cast<int32_t>(node.normal.z),
+                       std::bit_cast<int32_t>(node.distance), node.over, node.under);
     });
 }
 
@@ -140,7 +139,8 @@ std::string script(const std::string& resource_name, const glm::dvec3& origin) {
     replace("RESOURCE", quoted_for_godot(resource_name));
     replace("POSITION", coordinates(origin));
     return "# Lights objects by light probes, without a LightmapGI node. Set \"Mode\" of their\n"
-           "# \"Global Illumination\" to \"Dynamic\". \"probes\" may change while the game runs.\n" +
+           "# \"Global Illumination\" to \"Dynamic\". \"probes\" may change while the game "
+           "runs.\n" +
            text;
 }
 
@@ -148,12 +148,11 @@ std::vector<std::string> notes(const ProbeVolumeView& volume, const BoxedCells& 
                                const BspTree& tree) {
     const double nodes = static_cast<double>(tree.nodes.size());
     const double tetrahedra = static_cast<double>(cells.tetrahedra.size());
-    std::vector<std::string> notes{
-        str_cat("Light outside of the probes is interpolated to the corners of the bounds; the "
-                "tree that finds ",
-                cells.tetrahedra.size(), " tetrahedra has ",
-                std::round(100.0 * nodes / tetrahedra) / 100.0, " nodes for each and depth ",
-                tree.depth, ".")};
+    std::vector<std::string> notes{str_cat(
+        "Light outside of the probes is interpolated to the corners of the bounds; the "
+        "tree that finds ",
+        cells.tetrahedra.size(), " tetrahedra has ", std::round(100.0 * nodes / tetrahedra) / 100.0,
+        " nodes for each and depth ", tree.depth, ".")};
     if (volume.info.world_origin != glm::dvec3(0.0)) {
         notes.push_back(str_cat("Positions are relative to ", coordinates(volume.info.world_origin),
                                 ", because Godot's are floats: put a LightmapGI node there. The "

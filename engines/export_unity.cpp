@@ -20,7 +20,7 @@ namespace {
 /// Factors of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the basis; those of polynomials that are
 /// odd in x are negative.
 constexpr std::array<float, kShCoefficientCount> kMirroredBasis{
-    0.2820948f, 0.4886025f,  0.4886025f, -0.4886025f, -1.0925484f,
+    0.2820948f, 0.4886025f, 0.4886025f,  -0.4886025f, -1.0925484f,
     1.0925484f, 0.3153916f, -1.0925484f, 0.5462742f};
 
 /// Moves of probes by rounding that are worth a note, metres.
@@ -72,7 +72,8 @@ std::string probes_json(const ProbeVolumeView& volume) {
     return text + "\n}\n";
 }
 
-constexpr const char* kUnityScript = R"cs(// Copy this file into a folder named Editor of a Unity project, and the .json file beside it into
+constexpr const char* kUnityScript =
+    R"cs(// Copy this file into a folder named Editor of a Unity project, and the .json file beside it into
 // its assets. Select the .json file, then choose Tools > Tetralight > Make Light Probe Group, bake
 // the lighting of the scene, and choose Tools > Tetralight > Write Light of Probes.
 using System;
@@ -270,10 +271,10 @@ std::vector<std::string> rounding_notes(const ProbeVolumeView& volume) {
 }  // namespace
 
 Result<ExportedVolume> export_unity(const ProbeVolumeView& volume, const ExportSettings& settings) {
-    return ExportedVolume{{{settings.name + ".json", probes_json(volume)},
-                           {"TetralightProbes.cs", kUnityScript}},
-                          rounding_notes(volume),
-                          {}};
+    return ExportedVolume{
+        {{settings.name + ".json", probes_json(volume)}, {"TetralightProbes.cs", kUnityScript}},
+        rounding_notes(volume),
+        {}};
 }
 
 }  // namespace tetralight::detail

@@ -13,7 +13,8 @@ constexpr Setting kFiles[] = {
     {.name = "as",
      .type = Type::Choice,
      .help =
-         "Format. Of probe volumes: three-grid, godot, unity, vtu, json, csv (docs/engines.md has what each "
+         "Format. Of probe volumes: three-grid, godot, unity, vtu, json, csv (docs/engines.md has "
+         "what each "
          "keeps and loses). Of lightmaps and reflection probes: exr = 32-bit float images, of a "
          "cube its six faces one below the other; ktx2 = one array texture of 16-bit floats; png "
          "= RGBM images; glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection "

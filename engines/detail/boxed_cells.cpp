@@ -98,8 +98,8 @@ BoxedCells boxed_cells(const ProbeVolumeView& volume) {
         const glm::bvec3 is_high((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
         const glm::vec3 corner = glm::mix(cells.box.min, cells.box.max, is_high);
         cells.positions.push_back(corner);
-        cells.light.push_back(light_at(volume, volume.info.world_origin + glm::dvec3(corner),
-                                       Walls::HideProbes));
+        cells.light.push_back(
+            light_at(volume, volume.info.world_origin + glm::dvec3(corner), Walls::HideProbes));
     }
     if (volume.info.dimension < Dimension::Plane) {
         tetrahedralize_all(cells);

@@ -46,9 +46,8 @@ TEST(ExportUnity, ShadesAsWeDo) {
                 evaluate_irradiance(volume.irradiance[i], normal) / std::numbers::pi_v<float>;
             const glm::dvec3 mirrored(-normal.x, normal.y, normal.z);
             for (int channel = 0; channel < 3; ++channel) {
-                EXPECT_NEAR(
-                    shade(json["coefficients"], i, static_cast<size_t>(channel), mirrored),
-                    light[channel], 2e-5);
+                EXPECT_NEAR(shade(json["coefficients"], i, static_cast<size_t>(channel), mirrored),
+                            light[channel], 2e-5);
             }
         }
     }
