@@ -14,9 +14,11 @@ MakeExport export_babylon;
 MakeExport export_blender;
 MakeExport export_csv;
 MakeExport export_filament;
+MakeExport export_godot;
 MakeExport export_json;
 MakeExport export_playcanvas;
 MakeExport export_three_grid;
+MakeExport export_unity;
 MakeExport export_vtu;
 
 }  // namespace tetralight::detail

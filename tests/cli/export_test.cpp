@@ -171,6 +171,20 @@ TEST_F(ExportVolume, FilesBesideTheOutputAreNamedAfterIt) {
     EXPECT_EQ(succeed({"export", "v.probes", "--as", "csv", "-o", "-"}).out.substr(0, 6), "x,y,z,");
 }
 
+TEST_F(ExportVolume, EnginesGetAScriptBesideTheirFile) {
+    const Json godot = run_json({"export", "v.probes", "-o", "court.tres"});
+    EXPECT_EQ(godot["files"], (Json{"court.tres", "court.gd"}));
+    EXPECT_TRUE(contains(read("court.gd"), "preload(\"court.tres\")"));
+    EXPECT_TRUE(contains(read("court.tres"), "type=\"LightmapGIData\""));
+    const Json unity = run_json({"export", "v.probes", "--as", "unity", "-o", "court.json"});
+    EXPECT_EQ(unity["files"], (Json{"court.json", "TetralightProbes.cs"}));
+    EXPECT_EQ(Json::parse(read("court.json"))["positions"].size(), 15u);
+    write("none.json", R"({"groups": [{"name": "a", "positions": []}]})");
+    succeed({"tetrahedralize", "none.json", "-o", "none.probes"});
+    EXPECT_TRUE(contains(fail({"export", "none.probes", "-o", "none.tres"}),
+                         "none.probes: has no probes; Godot needs at least one"));
+}
+
 TEST_F(ExportVolume, SettingsBelongToFormats) {
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--spacing", "1"}),
                          "--spacing: is for grids, and vtu is not a grid"));
