@@ -68,6 +68,25 @@ class RealService(ServiceTest):
         bpy.ops.tetralight.bake()
         self.assertEqual(hashlib.sha256(of_service).digest(), hashlib.sha256(self.output.read_bytes()).digest())
 
+    def test_the_image_of_the_world_goes_along(self):
+        """The same bytes as with the command, which reads the image itself."""
+        world = bpy.data.worlds.new("world")
+        world.use_nodes = True
+        picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+        picture.image = bpy.data.images.new("sky", 16, 8, float_buffer=True, is_data=True)
+        picture.image.pixels.foreach_set([0.5, 0.25, 1, 1] * 128)
+        world.node_tree.links.new(picture.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+        without = self.baked()
+        bpy.context.scene.world = world
+        of_service = self.baked()
+        self.assertNotEqual(of_service, without)
+        self.preferences.bake_with = "COMMAND"
+        self.assertEqual(self.baked(), of_service)
+
+    def baked(self):
+        bpy.ops.tetralight.bake()
+        return hashlib.sha256(self.output.read_bytes()).hexdigest()
+
     def test_names(self):
         self.settings.service_name = "hall & co"
         bpy.ops.tetralight.bake()

@@ -30,7 +30,7 @@ SECONDS_OFFLINE = 60  # a service may be away as long while it bakes
 SECONDS_TO_END = 5
 
 
-@dataclass
+@dataclass(kw_only=True)
 class BakeSettings:
     """`order` has settings of `tetralight bake` by the names that jobs give them."""
 

@@ -58,7 +58,7 @@ def bake_settings(scene):
     else:
         order["samples"] = settings.samples
     spacing = settings.spacing if settings.places_probes else None
-    return BakeSettings(order, spacing, settings.service_name.strip())
+    return BakeSettings(order=order, grid_spacing=spacing, name=settings.service_name.strip())
 
 
 def output_path(scene):
