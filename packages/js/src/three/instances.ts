@@ -126,12 +126,11 @@ const kSphere = new three.Sphere();
 
 /** The center of an instance, local, and its matrix. False if it was deleted, or not added yet. */
 function placeBatched(mesh: three.BatchedMesh, i: number, center: three.Vector3, matrix: three.Matrix4): boolean {
-    let geometry = 0;
+    let geometry = -1;
     try {
         geometry = mesh.getGeometryIdAt(i);
-    } catch {
-        return false;
-    }
+    } catch {}  // older versions of three.js return -1
+    if (geometry < 0) return false;
     center.copy(mesh.getBoundingSphereAt(geometry, kSphere)?.center ?? center.set(0, 0, 0));
     mesh.getMatrixAt(i, matrix);
     return true;
