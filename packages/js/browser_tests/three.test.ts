@@ -79,7 +79,7 @@ describe.skipIf(!kCanTest)('in three.js', () => {
             return page.moving(page.open(bytes), all);
         }, [lit.base64, lit.squares] as const);
         const all = 50 * lit.squares.length;
-        expect(counts).toEqual([all, lit.squares.length, all / 2]);
+        expect(counts).toEqual([all, lit.squares.length, all / 2, lit.squares.length]);
         for (const each of colors) compareSquares(lit, 'lambert', each);
     });
 

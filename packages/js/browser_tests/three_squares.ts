@@ -82,7 +82,8 @@ export class Squares {
 
     /**
      * Squares among many instances: as they are added, after the squares were exchanged, and after every other instance
-     * moved. `counts`: the positions whose light was found each time.
+     * moved. Then they get other matrices of the same version, in which the squares are elsewhere. `counts`: the positions
+     * whose light was found each time.
      */
     async moving(probes: ProbeVolume, squares: readonly Square[]): Promise<{colors: number[][][]; counts: number[]}> {
         const kEach = 50;
@@ -113,6 +114,11 @@ export class Squares {
         colors.push(await show());
         for (let i = 1; i < mesh.count; i += 2) mesh.setMatrixAt(i, away.makeTranslation(0, 500, i));
         colors.push(await show());
+        probes.update();
+        const {version} = mesh.instanceMatrix;
+        mesh.instanceMatrix = new three.InstancedBufferAttribute(mesh.instanceMatrix.array.slice(), 16);
+        squares.forEach((square, i) => place(i, square));
+        mesh.instanceMatrix.version = version;
         probes.update();
         probes.remove(scene);
         return {colors, counts};

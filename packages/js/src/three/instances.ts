@@ -23,6 +23,7 @@ export class InstanceLight {
     private moved = new Uint32Array(0);
     private readonly batch = {positions: new Float32Array(0), hints: new Uint32Array(0), packed: new Float32Array(0)};
     /** What positions were found for. */
+    private matrices: object | null = null;
     private version = NaN;
     private readonly matrixWorld = new three.Matrix4();
 
@@ -35,9 +36,12 @@ export class InstanceLight {
     /** Finds the light of the instances that moved. */
     update(volume: Volume, options: BatchOptions): void {
         const {mesh} = this;
+        const matrices = isBatched(mesh) ? mesh : mesh.instanceMatrix;
         const version = isBatched(mesh) ? versionOf(mesh) : mesh.instanceMatrix.version;
-        if (version === this.version && this.matrixWorld.equals(mesh.matrixWorld)) return;
+        const isSame = matrices === this.matrices && version === this.version;
+        if (isSame && this.matrixWorld.equals(mesh.matrixWorld)) return;
         this.resize(isBatched(mesh) ? mesh.maxInstanceCount : mesh.instanceMatrix.count);
+        this.matrices = matrices;
         this.version = version;
         this.matrixWorld.copy(mesh.matrixWorld);
         const count = isBatched(mesh) ? this.findBatched(mesh) : this.findInstanced(mesh);
