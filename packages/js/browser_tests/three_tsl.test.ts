@@ -6,6 +6,7 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {bundle, kCanTest, LitSquares, TestPage} from './three_browser.js';
 import {compareSpheres, compareSquares} from './three_compare.js';
+import {compareWithRenderer, renderSpheres} from './three_renderer.js';
 import type {Kind} from './three_squares.js';
 import type {page as PageOfBrowser} from './three_tsl_page.js';
 
@@ -19,7 +20,10 @@ describe.skipIf(!kCanTest)('as nodes of three.js', () => {
         opened = await TestPage.open('three_tsl_page.ts');
         expect(await opened.page.evaluate(() => (window as unknown as Window).page.begin())).toBe('WebGL 2');
     });
-    afterAll(async () => opened?.close());
+    afterAll(async () => {
+        lit?.folder.remove();
+        await opened?.close();
+    });
 
     test.each([
         ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
@@ -41,6 +45,21 @@ describe.skipIf(!kCanTest)('as nodes of three.js', () => {
             }, [lit.base64, kind, lit.squares, exposure, isInstanced] as const);
             compareSpheres(lit, kind, exposure, spheres);
         });
+
+    describe('spheres beside those of `tetralight render`', () => {
+        const exposure = () => 1 / lit.brightest;
+        let ours: number[][][];
+        beforeAll(() => { ours = renderSpheres(lit, exposure()); });
+
+        test.each([['standard', false], ['lambert', false], ['lambert', true]] as [Kind, boolean][])(
+            'of %s material differ by no more than they should (instances: %s)', async (kind, isInstanced) => {
+                const theirs = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
+                    const {page} = window as unknown as Window;
+                    return page.views(page.open(bytes), given, all, factor, instanced);
+                }, [lit.base64, kind, lit.squares, exposure(), isInstanced] as const);
+                compareWithRenderer(kind, ours, theirs);
+            });
+    });
 
     test('a character has the light at its anchor, where its bone is', async () => {
         compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
