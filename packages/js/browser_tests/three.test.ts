@@ -6,6 +6,7 @@ import {irradiance, kCoefficients} from '../src/index.js';
 import {makeRandom} from '../tests/random.js';
 import {kCanTest, LitSquares, TestPage} from './three_browser.js';
 import {compareSpheres, compareSquares} from './three_compare.js';
+import {compareWithRenderer, renderSpheres} from './three_renderer.js';
 import type {page as PageOfBrowser} from './three_page.js';
 import type {Kind} from './three_squares.js';
 
@@ -19,7 +20,10 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         lit = new LitSquares();
         opened = await TestPage.open('three_page.ts');
     });
-    afterAll(async () => opened?.close());
+    afterAll(async () => {
+        lit?.folder.remove();
+        await opened?.close();
+    });
 
     test.each([
         ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
@@ -66,6 +70,21 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         });
     });
 
+    describe('spheres beside those of `tetralight render`', () => {
+        const exposure = () => 1 / lit.brightest;
+        let ours: number[][][];
+        beforeAll(() => { ours = renderSpheres(lit, exposure()); });
+
+        test.each([['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true], ['lambert', true]] as [Kind, boolean][])(
+            'of %s material differ by no more than they should (instances: %s)', async (kind, isInstanced) => {
+                const theirs = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
+                    const {page} = window as unknown as Window;
+                    return page.views(page.open(bytes), given, all, factor, instanced);
+                }, [lit.base64, kind, lit.squares, exposure(), isInstanced] as const);
+                compareWithRenderer(kind, ours, theirs);
+            });
+    });
+
     test('a character has the light at its anchor, where its bone is', async () => {
         compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
             const {page} = window as unknown as Window;
@@ -79,7 +98,7 @@ describe.skipIf(!kCanTest)('in three.js', () => {
             return page.moving(page.open(bytes), all);
         }, [lit.base64, lit.squares] as const);
         const all = 50 * lit.squares.length;
-        expect(counts).toEqual([all, lit.squares.length, all / 2]);
+        expect(counts).toEqual([all, lit.squares.length, all / 2, lit.squares.length]);
         for (const each of colors) compareSquares(lit, 'lambert', each);
     });
 

@@ -58,7 +58,7 @@ export class TestPage {
 
 /** A volume with squares at places inside and around it. */
 export class LitSquares {
-    private readonly folder = new Folder();
+    readonly folder = new Folder();
     readonly volume: Volume;
     /** The `.probes` file. */
     readonly base64: string;
@@ -66,7 +66,6 @@ export class LitSquares {
 
     constructor() {
         const bytes = this.folder.bake(undefined, '--layers', 'sun,sky');
-        this.folder.remove();
         this.volume = read(bytes);
         this.base64 = Buffer.from(bytes).toString('base64');
         const positions = makePositions(this.volume, 2 * kCount, 50);

@@ -13,7 +13,7 @@ export interface Kit {
     /** Linear RGBA floats of a picture of `kSize` squared pixels. */
     readPixels(scene: three.Object3D, camera: three.Camera): Promise<Float32Array>;
     /** Draws on a canvas, as users see it. */
-    draw(scene: three.Scene, camera: three.Camera, exposure: number): HTMLCanvasElement;
+    draw(scene: three.Scene, camera: three.Camera, exposure: number, toneMapping?: three.ToneMapping): HTMLCanvasElement;
     makeMaterial(kind: Kind, color: three.Color): three.Material;
     makeProbes(volume: Volume): ProbeVolume;
 }
@@ -23,8 +23,10 @@ export interface Square {
     normal: readonly number[];
 }
 
-const kAlbedo = 0.5;
-const kRadius = 0.05;
+export const kAlbedo = 0.5;
+export const kRadius = 0.05;
+/** Of perspective pictures of spheres: vertical field of view, degrees, and distance, metres. */
+export const kView = {fov: 36, distance: 0.2};
 export const kSize = 8;  // pixels along a side of a picture of squares
 export const kSphereSize = 32;  // of a sphere
 
@@ -82,7 +84,8 @@ export class Squares {
 
     /**
      * Squares among many instances: as they are added, after the squares were exchanged, and after every other instance
-     * moved. `counts`: the positions whose light was found each time.
+     * moved. Then they get other matrices of the same version, in which the squares are elsewhere. `counts`: the positions
+     * whose light was found each time.
      */
     async moving(probes: ProbeVolume, squares: readonly Square[]): Promise<{colors: number[][][]; counts: number[]}> {
         const kEach = 50;
@@ -113,6 +116,11 @@ export class Squares {
         colors.push(await show());
         for (let i = 1; i < mesh.count; i += 2) mesh.setMatrixAt(i, away.makeTranslation(0, 500, i));
         colors.push(await show());
+        probes.update();
+        const {version} = mesh.instanceMatrix;
+        mesh.instanceMatrix = new three.InstancedBufferAttribute(mesh.instanceMatrix.array.slice(), 16);
+        squares.forEach((square, i) => place(i, square));
+        mesh.instanceMatrix.version = version;
         probes.update();
         probes.remove(scene);
         return {colors, counts};
@@ -185,6 +193,25 @@ export class Squares {
         return pixels;
     }
 
+    /** Pictures of the spheres by a camera of `kView`, RGBA of each. */
+    views(probes: ProbeVolume, kind: Kind, places: readonly Square[], exposure: number, isInstanced: boolean): number[][] {
+        const scene = new three.Scene();
+        const material = this.material(kind);
+        if (isInstanced) scene.add(makeInstances(kSphere, material, places));
+        else for (const place of places) scene.add(makeMesh(kSphere, material, place));
+        scene.updateMatrixWorld();
+        probes.add(scene);
+        probes.update();
+        const pictures = places.map(({position, normal}) => {
+            const camera = new three.PerspectiveCamera(kView.fov, 1, 0.01, 10);
+            camera.position.copy(vector(position)).addScaledVector(vector(normal), kView.distance);
+            camera.lookAt(vector(position));
+            return [...pixelsOf(this.kit.draw(scene, camera, exposure, three.NeutralToneMapping))];
+        });
+        probes.remove(scene);
+        return pictures;
+    }
+
     private material(kind: Kind): three.Material {
         return this.kit.makeMaterial(kind, new three.Color(kAlbedo, kAlbedo, kAlbedo));
     }
@@ -233,13 +260,17 @@ function makeSkin(material: three.Material): three.SkinnedMesh {
     return mesh;
 }
 
-/** Of each pixel well within the sphere that fills the picture: its world normal and its color, six numbers. */
-function readSphere(canvas: HTMLCanvasElement, camera: three.Camera): number[][] {
+function pixelsOf(canvas: HTMLCanvasElement): Uint8ClampedArray {
     const flat = document.createElement('canvas');
     flat.width = flat.height = kSphereSize;
     const context = flat.getContext('2d')!;
     context.drawImage(canvas, 0, 0);
-    const {data} = context.getImageData(0, 0, kSphereSize, kSphereSize);
+    return context.getImageData(0, 0, kSphereSize, kSphereSize).data;
+}
+
+/** Of each pixel well within the sphere that fills the picture: its world normal and its color, six numbers. */
+function readSphere(canvas: HTMLCanvasElement, camera: three.Camera): number[][] {
+    const data = pixelsOf(canvas);
     const pixels = [];
     for (let row = 0; row < kSphereSize; ++row) {
         for (let column = 0; column < kSphereSize; ++column) {

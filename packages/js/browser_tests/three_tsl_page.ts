@@ -16,9 +16,9 @@ const kit: Kit = {
         renderer.render(scene, camera);
         return await renderer.readRenderTargetPixelsAsync(target, 0, 0, kSize, kSize) as Float32Array;
     },
-    draw(scene, camera, exposure) {
+    draw(scene, camera, exposure, toneMapping = three.LinearToneMapping) {
         renderer.setRenderTarget(null);
-        renderer.toneMapping = three.LinearToneMapping;
+        renderer.toneMapping = toneMapping;
         renderer.toneMappingExposure = exposure;
         renderer.render(scene, camera);
         return renderer.domElement as HTMLCanvasElement;

@@ -17,9 +17,9 @@ export const kit: Kit = {
         renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
         return pixels;
     },
-    draw(scene, camera, exposure) {
+    draw(scene, camera, exposure, toneMapping = three.LinearToneMapping) {
         renderer.setRenderTarget(null);
-        renderer.toneMapping = three.LinearToneMapping;
+        renderer.toneMapping = toneMapping;
         renderer.toneMappingExposure = exposure;
         renderer.render(scene, camera);
         return renderer.domElement;

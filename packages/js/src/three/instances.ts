@@ -23,6 +23,7 @@ export class InstanceLight {
     private moved = new Uint32Array(0);
     private readonly batch = {positions: new Float32Array(0), hints: new Uint32Array(0), packed: new Float32Array(0)};
     /** What positions were found for. */
+    private matrices: object | null = null;
     private version = NaN;
     private readonly matrixWorld = new three.Matrix4();
 
@@ -35,9 +36,12 @@ export class InstanceLight {
     /** Finds the light of the instances that moved. */
     update(volume: Volume, options: BatchOptions): void {
         const {mesh} = this;
+        const matrices = isBatched(mesh) ? mesh : mesh.instanceMatrix;
         const version = isBatched(mesh) ? versionOf(mesh) : mesh.instanceMatrix.version;
-        if (version === this.version && this.matrixWorld.equals(mesh.matrixWorld)) return;
+        const isSame = matrices === this.matrices && version === this.version;
+        if (isSame && this.matrixWorld.equals(mesh.matrixWorld)) return;
         this.resize(isBatched(mesh) ? mesh.maxInstanceCount : mesh.instanceMatrix.count);
+        this.matrices = matrices;
         this.version = version;
         this.matrixWorld.copy(mesh.matrixWorld);
         const count = isBatched(mesh) ? this.findBatched(mesh) : this.findInstanced(mesh);
@@ -126,12 +130,11 @@ const kSphere = new three.Sphere();
 
 /** The center of an instance, local, and its matrix. False if it was deleted, or not added yet. */
 function placeBatched(mesh: three.BatchedMesh, i: number, center: three.Vector3, matrix: three.Matrix4): boolean {
-    let geometry = 0;
+    let geometry = -1;
     try {
         geometry = mesh.getGeometryIdAt(i);
-    } catch {
-        return false;
-    }
+    } catch {}  // older versions of three.js return -1
+    if (geometry < 0) return false;
     center.copy(mesh.getBoundingSphereAt(geometry, kSphere)?.center ?? center.set(0, 0, 0));
     mesh.getMatrixAt(i, matrix);
     return true;

@@ -15,11 +15,13 @@ export class PackedTexture {
     private floats = new Float32Array(0);
     /** Whether everything waits for the next picture. */
     private isWhole = true;
+    /** Older versions of three.js upload textures as a whole. */
+    private readonly hasParts = 'updateRanges' in this.texture;
 
     constructor() {
         this.texture.onUpdate = () => {
             this.isWhole = false;
-            this.texture.clearUpdateRanges();  // WebGPURenderer does not
+            this.clear();  // WebGPURenderer does not
         };
     }
 
@@ -44,7 +46,7 @@ export class PackedTexture {
     upload(listed: Uint32Array, count: number): void {
         const {texture} = this;
         texture.needsUpdate = true;
-        if (this.isWhole) return;
+        if (this.isWhole || !this.hasParts) return;
         for (let begin = 0; begin < count;) {
             let end = begin + 1;
             while (end < count && listed[end] === listed[end - 1] + 1 && listed[end] % kInRow !== 0) ++end;
@@ -59,7 +61,11 @@ export class PackedTexture {
 
     uploadAll(): void {
         this.isWhole = true;
-        this.texture.clearUpdateRanges();
+        this.clear();
         this.texture.needsUpdate = true;
+    }
+
+    private clear(): void {
+        if (this.hasParts) this.texture.clearUpdateRanges();
     }
 }

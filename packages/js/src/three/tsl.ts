@@ -32,15 +32,21 @@ export class NodeProbeVolume extends ProbeVolume {
 
 /** Undefined if the material has no light. */
 function nodeCopy(material: three.Material): NodeMaterial | undefined {
-    if ((material as NodeMaterial).isNodeMaterial) {
-        const isLit = Object.values(kNodeMaterials).some(kind => material instanceof kind);
-        return isLit ? (material as NodeMaterial).clone() : undefined;
-    }
-    if (!(material.type in kNodeMaterials)) return undefined;
-    const copy = new kNodeMaterials[material.type]();
-    // As WebGPURenderer does it; `copy` of the material would take its type, too.
+    const kind = nodeKindOf(material);
+    if (!kind) return undefined;
+    const copy = new kind();
+    // `clone` of older versions of three.js loses colors.
     for (const [name, value] of Object.entries(material)) {
-        if (!['uuid', 'type', 'version'].includes(name)) (copy as unknown as Record<string, unknown>)[name] = value;
+        if (!kOwn.includes(name)) (copy as unknown as Record<string, unknown>)[name] = value;
     }
     return copy;
+}
+
+/** What a copy has of its own. */
+const kOwn = ['uuid', 'type', 'version', '_listeners'];
+
+function nodeKindOf(material: three.Material): (new() => NodeMaterial) | undefined {
+    if (!(material as NodeMaterial).isNodeMaterial) return kNodeMaterials[material.type];
+    const isLit = Object.values(kNodeMaterials).some(kind => material instanceof kind);
+    return isLit ? material.constructor as new() => NodeMaterial : undefined;
 }
