@@ -59,7 +59,6 @@ class World {
         mesh.position = this.vector(position);
         const front = Vector3.FromArray(mesh.getVerticesData('normal')!);
         mesh.rotationQuaternion = Quaternion.FromUnitVectorsToRef(front, this.vector(normal), new Quaternion());
-        mesh.computeWorldMatrix(true);
     }
 
     colorOf({position, normal}: Square): number[] {

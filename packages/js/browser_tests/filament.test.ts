@@ -28,7 +28,7 @@ describe.skipIf(!kCanRun)('in Filament', () => {
         });
     });
 
-    test.each(['moving', 'refreshed', 'coefficients'])('squares have the light of probes: %s', async way => {
+    test.each(['moving', 'refreshed', 'coefficients', 'exposures'])('squares have the light of probes: %s', async way => {
         expectRounded(lit, await shade(page, lit, way));
     });
 });

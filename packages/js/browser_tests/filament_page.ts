@@ -42,7 +42,7 @@ class World {
     private readonly swapChain: FilamentModule.SwapChain;
     private readonly renderer: FilamentModule.Renderer;
     private readonly view: FilamentModule.View;
-    private readonly camera: FilamentModule.Camera;
+    readonly camera: FilamentModule.Camera;
     private readonly square: FilamentModule.Entity;
 
     constructor() {
@@ -131,8 +131,22 @@ async function shadeByCoefficients(square: Square): Promise<number[]> {
     return color;
 }
 
+/** Exposures that multiply light by a half, with coefficients of twice the light. */
+async function shadeExposed(square: Square): Promise<number[]> {
+    const twice = irradianceSh(volume.light(square.position).sh).map(value => 2 * value);
+    const built = Filament.IndirectLight.Builder().irradianceSh(3, twice).intensity(1).build(world!.engine);
+    world!.scene.setIndirectLight(built);
+    if (square.normal[0] > 0) world!.camera.setExposure(1, 1, 120 / 2);
+    else world!.camera.setExposureDirect(2);
+    const color = await draw(square);
+    world!.camera.setExposureDirect(1);
+    world!.scene.setIndirectLight(null);
+    world!.engine.destroyIndirectLight(built);
+    return color;
+}
+
 const ways: Record<string, (square: Square, light: SceneLight) => Promise<number[]>> =
-    {moving: shadeMoving, refreshed: shadeRefreshed, coefficients: shadeByCoefficients};
+    {moving: shadeMoving, refreshed: shadeRefreshed, coefficients: shadeByCoefficients, exposures: shadeExposed};
 
 const engine: EnginePage = {
     open(base64, weights) {

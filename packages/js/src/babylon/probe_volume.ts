@@ -57,10 +57,11 @@ export class ProbeVolume {
         }
     }
 
-    /** Finds the light of everything that moved. World matrices must be those of the frame. */
+    /** Finds the light of everything that moved. */
     update(): void {
         for (const [mesh, {light, plugins}] of this.meshes) {
             const scene = mesh.getScene();
+            mesh.computeWorldMatrix();  // that of this frame, if the frame has not drawn it yet
             const center = mesh.getBoundingInfo().boundingBox.centerWorld;
             if (!light.moveTo(positionInVolume(center, scene), this.volume, this.options)) continue;
             const sh = shInScene(light.sh, scene);
