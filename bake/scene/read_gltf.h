@@ -49,8 +49,9 @@ struct SceneReading {
 /// a node (inherited); cameras; `extras.sky.radiance` of the scene, three numbers;
 /// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
 /// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
-/// are the probes, with `extras.dering` and `extras.rendering_layers`; `extras.probe_adjustment` of
-/// a node. Unknown light types and missing optional features become warnings.
+/// are the probes, or a box of probes by `extras.probe_resolution`, with `extras.dering` and
+/// `extras.rendering_layers`; `extras.probe_adjustment` of a node. Unknown light types and missing
+/// optional features become warnings.
 ///
 /// Returns corrupt if the file breaks the rules of glTF, invalid_argument if a value of extras is
 /// out of range, unsupported if the file requires an extension that is not listed here, and

@@ -222,5 +222,31 @@ class Units(FromBlender):
                     self.assert_near(self.irradiance(name, normal), 0.05 * math.pi)
 
 
+class LightProbeVolumes(FromBlender):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        run_blender(ROOT / "tests/cli/blender_light_probes.py", cls.folder)
+        cls.expected = json.loads((cls.folder / "expected.json").read_text())
+
+    def test_probes_are_the_centres_of_the_cells(self):
+        volume = self.folder / "v.probes"
+        tetralight("tetrahedralize", self.folder / "probes.glb", "-o", volume)
+        self.assertEqual([group["name"] for group in info(volume)["group_list"]], sorted(self.expected))
+        probes = json.loads(tetralight("info", volume, "--probes", "--json").stdout)["probe_list"]
+        for name, places in self.expected.items():
+            found = [probe["position"] for probe in probes if probe["groups"] == [name]]
+            self.assertEqual(len(found), len(places), name)
+            for place in places:
+                self.assertLess(min(math.dist(place, position) for position in found), 1e-4, (name, place))
+
+    def test_volumes_without_a_resolution_are_named(self):
+        scene = self.folder / "bare.gltf"
+        node = {"name": "Hall", "extras": {"light_probe_group": 1}}
+        scene.write_text(json.dumps({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [node]}))
+        said = tetralight("tetrahedralize", scene, "-o", self.folder / "none.probes").stderr
+        self.assertIn("light probe volumes need extras.probe_resolution", said)
+
+
 if __name__ == "__main__":
     unittest.main()

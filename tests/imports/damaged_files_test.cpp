@@ -68,7 +68,7 @@ TEST_P(DamagedFiles, WithAnyByteChangedAreReadOrRefused) {
     const std::string text = read_sample(GetParam());
     size_t refused = 0;
     for (size_t i = 0; i < text.size(); ++i) {
-        for (const int change : {0x01, 0x04, 0x40, 0x80}) {
+        for (const int change : {0x01, 0x80}) {
             std::string damaged = text;
             damaged[i] = static_cast<char>(damaged[i] ^ change);
             refused += is_read(damaged) ? 0 : 1;

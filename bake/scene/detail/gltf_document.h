@@ -294,6 +294,8 @@ struct GltfNode {
     std::optional<std::string> probe_anchor;
     GltfLightExtras light_extras;
     bool is_probe_group = false;
+    /// The probes of a box along each axis of the node: `extras.probe_resolution`.
+    std::optional<glm::dvec3> probe_resolution;
     bool dering = false;
     std::optional<uint32_t> rendering_layers;
     std::optional<GltfAdjustment> probe_adjustment;

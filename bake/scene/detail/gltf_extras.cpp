@@ -77,6 +77,8 @@ void read_node_extras(const json& node, GltfNode& result) {
     result.light_probes = word_at(node, "extras/light_probes");
     result.probe_anchor = word_at(node, "extras/probe_anchor");
     result.is_probe_group = boolean_at(node, "extras/light_probe_group").value_or(false);
+    if (find_json(node, "extras/probe_resolution") != nullptr)
+        result.probe_resolution = vec3_at(node, "extras/probe_resolution", glm::dvec3(0.0));
     result.dering = boolean_at(node, "extras/dering").value_or(false);
     result.rendering_layers = rendering_layers_at(node, "extras/rendering_layers");
     result.probe_adjustment = adjustment_from(node);

@@ -37,6 +37,7 @@ constexpr GltfRule kNodes[] = {
     {"extras/lightmap_scale", Number},
     {"extras/stitch_seams", BooleanOrBit},
     {"extras/light_probe_group", BooleanOrBit},
+    {"extras/probe_resolution", Numbers, "", 3},
     {"extras/dering", BooleanOrBit},
     {"extras/rendering_layers", RenderingLayers},
     {"extras/portal", Numbers, "", 2},

@@ -43,10 +43,11 @@ const Names& light_extras() {
 
 const std::vector<KnownExtras>& known_extras() {
     static const std::vector<KnownExtras> kKnown = [] {
-        Names of_nodes{"contribute_gi",     "walkable",     "in_reflections",    "receive_gi",
-                       "lightmap_scale",    "stitch_seams", "light_probes",      "probe_anchor",
-                       "light_probe_group", "dering",       "rendering_layers",  "probe_adjustment",
-                       "reflection_probe",  "portal",       "lightmap_rectangle"};
+        Names of_nodes{
+            "contribute_gi",     "walkable",         "in_reflections",   "receive_gi",
+            "lightmap_scale",    "stitch_seams",     "light_probes",     "probe_anchor",
+            "light_probe_group", "dering",           "rendering_layers", "probe_adjustment",
+            "probe_resolution",  "reflection_probe", "portal",           "lightmap_rectangle"};
         of_nodes.insert(of_nodes.end(), light_extras().begin(), light_extras().end());
         return std::vector<KnownExtras>{
             {"nodes", "nodes", "extras", of_nodes},
@@ -108,7 +109,7 @@ bool is_probe_group(const json& node) {
 const std::vector<OwnedExtras>& owned_extras() {
     static const std::vector<OwnedExtras> kOwned{
         {"nodes with a light", light_extras(), has_light},
-        {"probe groups", {"dering", "rendering_layers"}, is_probe_group}};
+        {"probe groups", {"dering", "rendering_layers", "probe_resolution"}, is_probe_group}};
     return kOwned;
 }
 

@@ -65,7 +65,8 @@ TEST(GltfProbeGroups, SayWhyTheyHaveNoProbes) {
     EXPECT_EQ(
         warning(nothing),
         "scene.glb: node 0 \"hall\": the group has no probes: it has neither a mesh of points "
-        "nor child nodes (Blender: export Loose Points)");
+        "nor child nodes (Blender: export Loose Points; light probe volumes need "
+        "extras.probe_resolution)");
 }
 
 TEST(GltfProbeGroups, AScaleOf0PutsProbesIntoAPlane) {
@@ -111,6 +112,54 @@ TEST(GltfProbeGroups, RenderingLayersThatAreNoneAreRefused) {
         ASSERT_FALSE(scene) << layers;
         EXPECT_EQ(scene.error().field, "nodes[0].extras.rendering_layers") << layers;
     }
+}
+
+/// A scene with a group "hall" without a mesh.
+GltfBuilder box_of_probes(Json resolution) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "hall"},
+                   {"translation", {10, 0, 0}},
+                   {"extras", {{"light_probe_group", true}, {"probe_resolution", resolution}}}});
+    return gltf;
+}
+
+TEST(GltfProbeGroups, AResolutionPutsProbesIntoTheCellsOfABox) {
+    const Scene scene = scene_of(box_of_probes({2, 1, 4.0}));
+    ASSERT_EQ(scene.probe_groups.size(), 1u);
+    // The box is from -1 to 1: two cells of 1 m along x, one of 2 m, four of 0.5 m along z.
+    std::vector<glm::dvec3> expected;
+    for (const double z : {-0.75, -0.25, 0.25, 0.75})
+        for (const double x : {-0.5, 0.5}) expected.emplace_back(x, 0, z);
+    EXPECT_EQ(scene.probe_groups[0].positions, expected);
+    EXPECT_EQ(scene.probe_groups[0].world_from_group[3], glm::dvec4(10, 0, 0, 1));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfProbeGroups, ChildrenOfABoxAreNotItsProbes) {
+    GltfBuilder gltf = box_of_probes({1, 1, 1});
+    gltf.json["nodes"][0]["children"] = {gltf.add("nodes", {{"name", "chair"}})};
+    EXPECT_EQ(scene_of(gltf).probe_groups.at(0).positions.size(), 1u);
+}
+
+TEST(GltfProbeGroups, WrongResolutionsAreRefused) {
+    for (const Json& resolution :
+         {Json{0, 1, 1}, Json{1, -1, 1}, Json{1, 1, 0.5}, Json{1, 1}, Json{1, 1, "a"},
+          Json{4000, 4000, 4000}, Json{1e300, 1e300, 1}, Json(4)}) {
+        const auto scene = box_of_probes(resolution).read();
+        ASSERT_FALSE(scene) << resolution;
+        EXPECT_EQ(scene.error().field, "nodes[0].extras.probe_resolution") << resolution;
+        EXPECT_NE(error_text(scene.error()).find("node 0 \"hall\""), std::string::npos);
+    }
+}
+
+TEST(GltfProbeGroups, TheBoxesOfASceneTogetherHaveALimit) {
+    GltfBuilder gltf = box_of_probes({250, 200, 100});
+    gltf.add_root(
+        {{"name", "yard"},
+         {"extras", {{"light_probe_group", true}, {"probe_resolution", {300, 200, 100}}}}});
+    const auto scene = gltf.read();
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().field, "nodes[1].extras.probe_resolution");
 }
 
 TEST(GltfProbeGroups, FalseIsNoGroup) {
