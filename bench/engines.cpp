@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
@@ -74,8 +75,7 @@ void exports(const Subject& subject, const Options& options) {
         }
         const std::string name = str_cat('.', target.name, '.', subject.name);
         report("engines.seconds" + name, median(times), "s");
-        report("engines.bytes" + name, bytes / static_cast<double>(volume.probe_count()),
-               "bytes/probe");
+        report("engines.bytes" + name, bytes, "B");
         if (difference) report_difference("engines.difference" + name, *difference);
     }
 }
@@ -116,7 +116,7 @@ std::optional<double> batch_in_node(const BenchFolder& folder, const char* preci
         run_process({.program = "node", .arguments = {script, folder.path.string(), precision}});
     if (!result || !result->succeeded()) {
         std::cerr << "js.batch is left out: "
-                  << (result ? result->failure() : result.error().message) << '\n';
+                  << (result ? result->failure() : error_text(result.error())) << '\n';
         return std::nullopt;
     }
     const auto json = Json::parse(result->output_text());

@@ -63,7 +63,7 @@ Result<PlaceLight> light_of_one_place(const ProbeVolumeView& volume,
 }
 
 std::string other_places_are_lost(const PlaceLight& place) {
-    const glm::dvec3& p = place.position;
+    const glm::vec3 p(place.position);  // shorter than doubles
     return str_cat("The light of all places but ", p.x, ", ", p.y, ", ", p.z, '.');
 }
 
