@@ -38,8 +38,8 @@ void append_bsp(std::string& text, const std::vector<BspNode>& nodes) {
     append_packed(text, "PackedInt32Array", nodes.size(), [&](std::string& out, size_t i) {
         const BspNode& node = nodes[i];
         append_list(out, std::bit_cast<int32_t>(node.normal.x),
-                       std::bit_cast<int32_t>(node.normal.y), std::bit_cast<int32_t>(node.normal.z),
-                       std::bit_cast<int32_t>(node.distance), node.over, node.under);
+                    std::bit_cast<int32_t>(node.normal.y), std::bit_cast<int32_t>(node.normal.z),
+                    std::bit_cast<int32_t>(node.distance), node.over, node.under);
     });
 }
 
@@ -145,7 +145,7 @@ std::string godot_script(const std::string& resource_name, const glm::dvec3& ori
 }
 
 std::vector<std::string> godot_notes(const ProbeVolumeView& volume, const BoxedCells& cells,
-                               const BspTree& tree) {
+                                     const BspTree& tree) {
     const double nodes = static_cast<double>(tree.nodes.size());
     const double tetrahedra = static_cast<double>(cells.tetrahedra.size());
     std::vector<std::string> notes{str_cat(
@@ -167,17 +167,17 @@ Result<ExportedVolume> export_godot(const ProbeVolumeView& volume, const ExportS
     if (volume.positions.empty()) {
         return Error{ErrorCode::InvalidArgument, "has no probes; Godot needs at least one"};
     }
-    const BoxedCells cells = boxed_cells(volume);
+    const ProbeVolumeView full = volume.irradiance.empty() ? volume : volume.without_compact();
+    const BoxedCells cells = boxed_cells(full);
     const BspTree tree = make_bsp_tree(cells.positions, cells.tetrahedra);
     const auto tap = [&](const glm::dvec3& position) {
         return tap_godot_light(cells, tree, glm::vec3(position - volume.info.world_origin));
     };
     const std::string name = settings.name + ".tres";
-    return ExportedVolume{
-        {{name, godot_resource(cells, tree)},
-         {settings.name + ".gd", godot_script(name, volume.info.world_origin)}},
-        godot_notes(volume, cells, tree),
-        measure_difference(volume, random_places(volume, kDifferencePlaces), tap)};
+    return ExportedVolume{{{name, godot_resource(cells, tree)},
+                           {settings.name + ".gd", godot_script(name, volume.info.world_origin)}},
+                          godot_notes(full, cells, tree),
+                          measure_difference(full, random_places(full, kDifferencePlaces), tap)};
 }
 
 }  // namespace tetralight::detail

@@ -2,7 +2,6 @@
 #include <tetralight/engines/detail/bsp_tree.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -115,7 +114,8 @@ class BspBuilder {
         return corners;
     }
 
-    /// m log m for both sides, of some of the entries; infinite if nothing is over the plane.
+    /// The squares of the numbers on both sides, of some of the entries: m log m gives trees that
+    /// are three times as deep. Infinite if nothing is over the plane.
     [[nodiscard]] double work_below(const BspEntries& entries, const BspPlane& plane) const {
         const size_t step = (entries.size() + kEntriesTried - 1) / kEntriesTried;
         double over = 0.0;
@@ -126,7 +126,7 @@ class BspBuilder {
             under += sides.is_under ? 1.0 : 0.0;
         }
         if (over == 0.0) return std::numeric_limits<double>::infinity();
-        return over * std::log2(over + 1.0) + under * std::log2(under + 1.0);
+        return over * over + under * under;
     }
 
     [[nodiscard]] BspSides sides_of(const BspEntry& entry, const BspPlane& plane) const {

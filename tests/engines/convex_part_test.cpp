@@ -41,8 +41,7 @@ TEST(ConvexPart, BothSidesOfACutAreClosedAndMakeUpThePart) {
     std::mt19937_64 engine(1);
     for (int round = 0; round < 200; ++round) {
         const auto corners = test::random_positions(4, static_cast<uint64_t>(round));
-        ConvexPart part =
-            detail::convex_part({corners[0], corners[1], corners[2], corners[3]});
+        ConvexPart part = detail::convex_part({corners[0], corners[1], corners[2], corners[3]});
         for (int i = 0; i < 6; ++i) {
             glm::dvec3 center(0.0);
             for (const glm::dvec3& p : part.points) {
