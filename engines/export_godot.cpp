@@ -29,7 +29,7 @@ void append_packed(std::string& text, const char* type, size_t count, Append&& a
 
 /// Numbers separated by commas.
 template <class... Numbers>
-void append_numbers(std::string& text, Numbers... numbers) {
+void append_list(std::string& text, Numbers... numbers) {
     const char* separator = "";
     ((text += separator, append_text(text, numbers), separator = ", "), ...);
 }
@@ -37,9 +37,9 @@ void append_numbers(std::string& text, Numbers... numbers) {
 void append_bsp(std::string& text, const std::vector<BspNode>& nodes) {
     append_packed(text, "PackedInt32Array", nodes.size(), [&](std::string& out, size_t i) {
         const BspNode& node = nodes[i];
-        append_numbers(out, std::bit_cast<int32_t>(node.normal.x),
-                       std::bit_cast<int32_t>(node.normal.y), std::bit_cast<int32_t>(node.normal.z),
-                       std::bit_cast<int32_t>(node.distance), node.over, node.under);
+        append_list(out, std::bit_cast<int32_t>(node.normal.x),
+                    std::bit_cast<int32_t>(node.normal.y), std::bit_cast<int32_t>(node.normal.z),
+                    std::bit_cast<int32_t>(node.distance), node.over, node.under);
     });
 }
 
@@ -49,25 +49,25 @@ void append_light(std::string& text, const std::vector<IrradianceSh>& light) {
         for (size_t k = 0; k < kShCoefficientCount; ++k) {
             const glm::vec3 color = radiance.coefficients[k] * std::numbers::inv_pi_v<float>;
             if (k > 0) out += ", ";
-            append_numbers(out, color.r, color.g, color.b, 1);
+            append_list(out, color.r, color.g, color.b, 1);
         }
     });
 }
 
-std::string resource(const BoxedCells& cells, const BspTree& tree) {
+std::string godot_resource(const BoxedCells& cells, const BspTree& tree) {
     const glm::vec3& low = cells.box.min;
     const glm::vec3 size = cells.box.size();
     std::string text =
         "[gd_resource type=\"LightmapGIData\" format=3]\n\n[resource]\nprobe_data = {\n"
         "\"baked_exposure\": 1.0,\n\"bounds\": AABB(";
-    append_numbers(text, low.x, low.y, low.z, size.x, size.y, size.z);
+    append_list(text, low.x, low.y, low.z, size.x, size.y, size.z);
     text += "),\n\"bsp\": ";
     append_bsp(text, tree.nodes);
     text += ",\n\"interior\": false,\n\"lightprobe_hash\": 0,\n\"points\": ";
     append_packed(text, "PackedVector3Array", cells.positions.size(),
                   [&](std::string& out, size_t i) {
                       const glm::vec3& p = cells.positions[i];
-                      append_numbers(out, p.x, p.y, p.z);
+                      append_list(out, p.x, p.y, p.z);
                   });
     text += ",\n\"sh\": ";
     append_light(text, cells.light);
@@ -75,13 +75,13 @@ std::string resource(const BoxedCells& cells, const BspTree& tree) {
     append_packed(text, "PackedInt32Array", cells.tetrahedra.size(),
                   [&](std::string& out, size_t i) {
                       const auto& v = cells.tetrahedra[i];
-                      append_numbers(out, v[0], v[1], v[2], v[3]);
+                      append_list(out, v[0], v[1], v[2], v[3]);
                   });
     text += "\n}\n";
     return text;
 }
 
-constexpr const char* kScript = R"gd(extends Node3D
+constexpr const char* kGodotScript = R"gd(extends Node3D
 
 @export var probes: LightmapGIData = preload(RESOURCE):
 	set(value):
@@ -127,25 +127,25 @@ func _show_probes() -> void:
 )gd";
 
 /// "x, y, z". GDScript reads 5e+20 but not 5e20, which `str_cat` does not write.
-std::string coordinates(const glm::dvec3& position) {
+std::string xyz_text(const glm::dvec3& position) {
     return str_cat(position.x, ", ", position.y, ", ", position.z);
 }
 
-std::string script(const std::string& resource_name, const glm::dvec3& origin) {
-    std::string text = kScript;
+std::string godot_script(const std::string& resource_name, const glm::dvec3& origin) {
+    std::string text = kGodotScript;
     const auto replace = [&](std::string_view word, const std::string& value) {
         text.replace(text.find(word), word.size(), value);
     };
     replace("RESOURCE", quoted_for_godot(resource_name));
-    replace("POSITION", coordinates(origin));
+    replace("POSITION", xyz_text(origin));
     return "# Lights objects by light probes, without a LightmapGI node. Set \"Mode\" of their\n"
            "# \"Global Illumination\" to \"Dynamic\". \"probes\" may change while the game "
            "runs.\n" +
            text;
 }
 
-std::vector<std::string> notes(const ProbeVolumeView& volume, const BoxedCells& cells,
-                               const BspTree& tree) {
+std::vector<std::string> godot_notes(const ProbeVolumeView& volume, const BoxedCells& cells,
+                                     const BspTree& tree) {
     const double nodes = static_cast<double>(tree.nodes.size());
     const double tetrahedra = static_cast<double>(cells.tetrahedra.size());
     std::vector<std::string> notes{str_cat(
@@ -154,7 +154,7 @@ std::vector<std::string> notes(const ProbeVolumeView& volume, const BoxedCells& 
         cells.tetrahedra.size(), " tetrahedra has ", std::round(100.0 * nodes / tetrahedra) / 100.0,
         " nodes for each and depth ", tree.depth, ".")};
     if (volume.info.world_origin != glm::dvec3(0.0)) {
-        notes.push_back(str_cat("Positions are relative to ", coordinates(volume.info.world_origin),
+        notes.push_back(str_cat("Positions are relative to ", xyz_text(volume.info.world_origin),
                                 ", because Godot's are floats: put a LightmapGI node there. The "
                                 "script does so."));
     }
@@ -167,17 +167,17 @@ Result<ExportedVolume> export_godot(const ProbeVolumeView& volume, const ExportS
     if (volume.positions.empty()) {
         return Error{ErrorCode::InvalidArgument, "has no probes; Godot needs at least one"};
     }
-    const BoxedCells cells = boxed_cells(volume);
+    const ProbeVolumeView full = volume.irradiance.empty() ? volume : volume.without_compact();
+    const BoxedCells cells = boxed_cells(full);
     const BspTree tree = make_bsp_tree(cells.positions, cells.tetrahedra);
     const auto tap = [&](const glm::dvec3& position) {
         return tap_godot_light(cells, tree, glm::vec3(position - volume.info.world_origin));
     };
     const std::string name = settings.name + ".tres";
-    return ExportedVolume{
-        {{name, resource(cells, tree)},
-         {settings.name + ".gd", script(name, volume.info.world_origin)}},
-        notes(volume, cells, tree),
-        measure_difference(volume, random_places(volume, kDifferencePlaces), tap)};
+    return ExportedVolume{{{name, godot_resource(cells, tree)},
+                           {settings.name + ".gd", godot_script(name, volume.info.world_origin)}},
+                          godot_notes(full, cells, tree),
+                          measure_difference(full, random_places(full, kDifferencePlaces), tap)};
 }
 
 }  // namespace tetralight::detail

@@ -12,8 +12,8 @@
 namespace tetralight::detail {
 namespace {
 
-using Face = std::array<uint32_t, 3>;
-using Edge = std::array<uint32_t, 2>;
+using BoxFace = std::array<uint32_t, 3>;
+using BoxEdge = std::array<uint32_t, 2>;
 
 /// Around probes that are one point, metres.
 constexpr float kPointMargin = 10.0f;
@@ -33,8 +33,8 @@ Box<glm::vec3> grown_box(std::span<const glm::vec3> positions) {
 
 /// The surface of the cells, counter-clockwise seen from outside. That of triangles in a plane has
 /// each of them twice, once for each side.
-std::vector<Face> surface(const ProbeVolumeView& volume) {
-    std::vector<Face> faces;
+std::vector<BoxFace> surface_of(const ProbeVolumeView& volume) {
+    std::vector<BoxFace> faces;
     const uint32_t inner_count = volume.info.inner_cell_count;
     if (volume.info.dimension == Dimension::Plane) {
         for (const Cell& cell : volume.cells.first(inner_count)) {
@@ -52,11 +52,11 @@ std::vector<Face> surface(const ProbeVolumeView& volume) {
 
 /// Adds a corner outside of the surface: a tetrahedron on each face that it sees. What was there
 /// before stays, other than in a Delaunay tetrahedralization with the corners.
-void add_corner(uint32_t corner, BoxedCells& cells, std::vector<Face>& faces) {
+void add_corner(uint32_t corner, BoxedCells& cells, std::vector<BoxFace>& faces) {
     const auto point = [&](uint32_t vertex) { return glm::dvec3(cells.positions[vertex]); };
-    std::vector<Face> next;
-    std::vector<Edge> edges;
-    for (const Face& face : faces) {
+    std::vector<BoxFace> next;
+    std::vector<BoxEdge> edges;
+    for (const BoxFace& face : faces) {
         const glm::dvec3 origin = point(face[0]);
         const glm::dvec3 normal = glm::cross(point(face[1]) - origin, point(face[2]) - origin);
         const glm::dvec3 to_corner = point(corner) - origin;
@@ -70,8 +70,8 @@ void add_corner(uint32_t corner, BoxedCells& cells, std::vector<Face>& faces) {
         for (size_t i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
     }
     std::ranges::sort(edges);
-    for (const Edge& edge : edges) {
-        const bool is_between = std::ranges::binary_search(edges, Edge{edge[1], edge[0]});
+    for (const BoxEdge& edge : edges) {
+        const bool is_between = std::ranges::binary_search(edges, BoxEdge{edge[1], edge[0]});
         if (!is_between) next.push_back({edge[0], edge[1], corner});
     }
     faces = std::move(next);
@@ -110,7 +110,7 @@ BoxedCells boxed_cells(const ProbeVolumeView& volume) {
             cells.tetrahedra.push_back(cell.vertices);
         }
     }
-    std::vector<Face> faces = surface(volume);
+    std::vector<BoxFace> faces = surface_of(volume);
     const uint32_t probe_count = volume.probe_count();
     for (uint32_t i = 0; i < 8; ++i) add_corner(probe_count + i, cells, faces);
     return cells;

@@ -9,7 +9,7 @@ namespace tetralight::detail {
 namespace {
 
 /// Volumes of the tetrahedra that the position makes with each face, ÷ that of the tetrahedron.
-glm::vec4 weights(const std::array<glm::vec3, 4>& corners, glm::vec3 position) {
+glm::vec4 godot_weights(const std::array<glm::vec3, 4>& corners, glm::vec3 position) {
     const auto& [a, b, c, d] = corners;
     const auto triple = [](glm::vec3 u, glm::vec3 v, glm::vec3 w) {
         return glm::dot(u, glm::cross(v, w));
@@ -27,7 +27,7 @@ IrradianceSh tap_godot_light(const BoxedCells& cells, const BspTree& tree, glm::
     const auto& vertices = cells.tetrahedra[find_tetrahedron(tree.nodes, position)];
     std::array<glm::vec3, 4> corners;
     for (size_t i = 0; i < 4; ++i) corners[i] = cells.positions[vertices[i]];
-    const glm::vec4 shares = glm::clamp(weights(corners, position), 0.0f, 1.0f);
+    const glm::vec4 shares = glm::clamp(godot_weights(corners, position), 0.0f, 1.0f);
     IrradianceSh light;
     for (size_t i = 0; i < 4; ++i) {
         light = light + cells.light[vertices[i]] * shares[static_cast<int>(i)];
