@@ -17,6 +17,13 @@ constexpr ExportTarget kTargets[] = {
      .loses = "In a grid light passes through walls that are thinner than its cells.",
      .has_grid = true,
      .make = detail::export_three_grid},
+    {.name = "bevy",
+     .extension = ".scn.ron",
+     .help = "an irradiance volume for Bevy, with its texture beside it",
+     .loses = "Bevy shows six directions of light, and in a grid light passes through walls that "
+              "are thinner than its cells.",
+     .has_grid = true,
+     .make = detail::export_bevy},
     {.name = "vtu",
      .extension = ".vtu",
      .help = "probes and cells for ParaView, PyVista and other programs that use VTK",

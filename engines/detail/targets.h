@@ -10,6 +10,7 @@ namespace tetralight::detail {
 using MakeExport = Result<ExportedVolume>(const ProbeVolumeView& volume,
                                           const ExportSettings& settings);
 
+MakeExport export_bevy;
 MakeExport export_csv;
 MakeExport export_json;
 MakeExport export_three_grid;
