@@ -183,8 +183,9 @@ struct VolumeExport {
 const ExportTarget* chosen_export_target(const Values& values) {
     if (values.is_given("as")) return find_export_target(values.text("as"));
     const std::string output = values.text("output");
+    // Lightmaps are written into .glb files too.
     const auto has_extension = [&](const ExportTarget& target) {
-        return output.ends_with(target.extension);
+        return output.ends_with(target.extension) && !output.ends_with(".glb");
     };
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;

@@ -80,8 +80,15 @@ std::string texture(const SampledGrid& grid, const std::vector<glm::vec3>& texel
         {size.x, size.y, size.z, TexelFormat::Rgba16Float, std::as_bytes(std::span(halves))}, {});
 }
 
+/// A number of RON that nothing takes for an integer.
+std::string number(auto value) {
+    std::string text = str_cat(value);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
 std::string triple(const glm::dvec3& v) {
-    return str_cat('(', v.x, ", ", v.y, ", ", v.z, ')');
+    return str_cat('(', number(v.x), ", ", number(v.y), ", ", number(v.z), ')');
 }
 
 /// A world as `WorldAssetLoader` of Bevy reads it.
@@ -95,7 +102,7 @@ std::string world(const Box<glm::dvec3>& box, const std::string& texture_name, f
           voxels: Path()",
                    quoted_for_ron(texture_name), R"(),
           intensity: )",
-                   intensity, R"(,
+                   number(intensity), R"(,
           affects_lightmapped_meshes: true,
         ),
         "bevy_light::probe::LightProbe": (

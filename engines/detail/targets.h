@@ -12,8 +12,10 @@ using MakeExport = Result<ExportedVolume>(const ProbeVolumeView& volume,
 
 MakeExport export_bevy;
 MakeExport export_csv;
+MakeExport export_gltf;
 MakeExport export_json;
 MakeExport export_three_grid;
+MakeExport export_unreal;
 MakeExport export_vtu;
 
 }  // namespace tetralight::detail
