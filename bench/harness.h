@@ -87,6 +87,8 @@ void bench_bake(const Options& options);
 void bench_delaunay(const Options& options);
 /// Direction sets against random directions.
 void bench_direction_sets();
+/// Exports for engines, and the npm package.
+void bench_engines(const Options& options);
 /// Bakes in tasks: expected rays and bytes, equal tasks, joining.
 void bench_farm(const Options& options);
 /// Adding and removing a group, as fractions of a full build.

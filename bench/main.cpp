@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     using namespace tetralight::bench;
     const std::map<std::string, void (*)(const Options&)> benches{
         {"bake", bench_bake},
+        {"engines", bench_engines},
         {"farm", bench_farm},
         {"query", bench_query},
         {"reflection", bench_reflection},

@@ -55,6 +55,7 @@ struct Bake {
         common.warn(scene->warnings);
         auto prepared = inputs.prepare(*scene, group_files);
         if (!prepared) return prepared.error();
+        common.warn(group_files.warnings());
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
     }

@@ -123,7 +123,7 @@ struct VolumeExport {
             error.value = volume_path;
             return error;
         }
-        return error.in("--" + error.field);
+        return error.in(error.field == "places" ? "--at" : "--" + error.field);
     }
 
     /// The files that are written, checked. Those beside the first are in its folder.
@@ -183,10 +183,13 @@ struct VolumeExport {
 const ExportTarget* chosen_export_target(const Values& values) {
     if (values.is_given("as")) return find_export_target(values.text("as"));
     const std::string output = values.text("output");
-    // Lightmaps are written into .glb files too.
     const auto has_extension = [&](const ExportTarget& target) {
-        return output.ends_with(target.extension) && !output.ends_with(".glb");
+        return output.ends_with(target.extension);
     };
+    // Lightmaps and reflection probes have these, too.
+    for (const char* shared : {".exr", ".ktx2", ".png", ".glb"}) {
+        if (output.ends_with(shared)) return nullptr;
+    }
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;
     return &*std::ranges::find_if(targets, has_extension);

@@ -2,41 +2,25 @@
 #include <tetralight/cli/group_files.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/imports/import_groups.h>
 #include <tetralight/probes/build/merge.h>
 
 namespace tetralight::cli {
-namespace {
-
-bool is_gltf(const std::string& path) {
-    const auto extension = std::filesystem::path(path).extension();
-    return extension == ".glb" || extension == ".gltf";
-}
-
-Result<std::vector<ProbeGroup>> read_groups(const std::string& path, const SceneReading& reading) {
-    if (!is_gltf(path)) return read_probe_groups(path);
-    auto scene = read_gltf(path, reading);
-    if (!scene) return scene.error();
-    if (scene->probe_groups.empty()) {
-        return Error{ErrorCode::NotFound, "groups", path,
-                     path + ": no node has extras.light_probe_group"};
-    }
-    return std::move(scene->probe_groups);
-}
-
-}  // namespace
 
 Result<GroupFiles> GroupFiles::read(const std::vector<std::string>& paths,
                                     const SceneReading& reading) {
     GroupFiles files;
     for (const std::string& path : paths) {
-        auto groups = read_groups(path, reading);
-        if (!groups) return groups.error();
-        files.add(path, std::move(*groups));
+        auto imported = import_groups(path, reading);
+        if (!imported) return imported.error();
+        files.add(path, std::move(imported->groups));
+        std::ranges::move(imported->warnings, std::back_inserter(files.warnings_));
     }
     return files;
 }

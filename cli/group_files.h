@@ -14,8 +14,8 @@ namespace tetralight::cli {
 /// Probe groups, and the files that they came from.
 class GroupFiles {
   public:
-    /// Reads every file: JSON group files, or the groups of glTF scenes. Returns an error if a
-    /// scene has no group.
+    /// Reads every file with the reader of its extension (`import_groups`). Returns an error if a
+    /// file other than JSON has no group.
     [[nodiscard]] static Result<GroupFiles> read(const std::vector<std::string>& paths,
                                                  const SceneReading& reading = {});
 
@@ -23,6 +23,9 @@ class GroupFiles {
     void add(const std::string& path, std::vector<ProbeGroup> groups);
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
+
+    /// What the files have and is not read.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// Warnings with the file, or the files, of the group that they begin with before them.
     [[nodiscard]] std::vector<std::string> locate(std::vector<std::string> warnings) const;
@@ -32,6 +35,7 @@ class GroupFiles {
 
   private:
     std::vector<ProbeGroup> groups_;
+    std::vector<std::string> warnings_;
     std::map<std::string, std::vector<std::string>> paths_of_group_;
 };
 

@@ -165,6 +165,7 @@ class Planner {
             GroupFiles files;
             const auto prepared = inputs.prepare(*scene, files);
             if (!prepared) return prepared.error();
+            settings_.common.warn(files.warnings());
             settings_.common.warn(files.locate(prepared->report.warnings));
             return plan_probes(order, *scene, *prepared);
         });

@@ -55,6 +55,7 @@ struct Tetrahedralize {
         if (auto status = check_output(output, group_paths); !status) return status;
         const auto files = GroupFiles::read(group_paths, reading);
         if (!files) return files.error();
+        common.warn(files->warnings());
         const auto merged = merge(files->groups(), merge_settings);
         if (!merged) return files->locate(merged.error());
         auto cells = cells_over(*merged);

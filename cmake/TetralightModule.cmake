@@ -45,7 +45,8 @@ endfunction()
 # the build tree these paths are links to the source folders.
 set(tetralight_include_dir ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${tetralight_include_dir}/tetralight)
-foreach(folder base probes charts lppv lightmap reflection runtime bake engines pipeline settings batch render server cli bench)
+foreach(folder base probes charts lppv lightmap reflection runtime bake imports engines pipeline settings batch render server
+               cli bench)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
          COPY_ON_ERROR SYMBOLIC)

@@ -2,7 +2,6 @@
 #include <tetralight/pipeline/write_reflection_glb.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <tetralight/bake/image/rgbd.h>
@@ -16,29 +15,19 @@
 namespace tetralight {
 namespace {
 
-/// A face at the size of a level. Its roughness is level / (levels - 1), as readers of the
-/// extension look levels up, so that it is a blend of ours.
-ImageF face_of_equal_steps(const ReflectionsView& all, size_t probe, uint32_t level,
-                           uint32_t face) {
+/// The image of a face as the extension has it. The roughness of a level is level / (levels - 1),
+/// as readers of the extension look levels up, so that it is a blend of ours.
+ImageF face_image(const ReflectionsView& all, size_t probe, uint32_t level, uint32_t face) {
     const uint32_t size = all.size >> level;
     const float roughness =
         all.level_count < 2 ? 0.0f
                             : static_cast<float>(level) / static_cast<float>(all.level_count - 1);
     ImageF image{size, size, {}};
     for (uint32_t i = 0; i < size * size; ++i) {
-        const CubeTexel texel{face, i % size, i / size};
+        const glm::vec3 direction = image_based_light_direction(face, i % size, i / size, size);
         image.pixels.push_back(
-            sample_cube(all, static_cast<uint32_t>(probe), cube_direction(texel, size), roughness));
+            sample_cube(all, static_cast<uint32_t>(probe), direction, roughness));
     }
-    return image;
-}
-
-/// The image of a face in a world with x mirrored, as left-handed scenes of Babylon.js have it.
-/// That mirrors its columns, and images start with the last row: all pixels are reversed.
-ImageF mirrored_face(const ReflectionsView& all, size_t probe, uint32_t level, uint32_t face) {
-    const bool is_x = face < 2;
-    ImageF image = face_of_equal_steps(all, probe, level, is_x ? 1 - face : face);
-    std::ranges::reverse(image.pixels);
     return image;
 }
 
@@ -51,18 +40,12 @@ float largest_channel(const ReflectionsView& all, size_t probe) {
     return largest;
 }
 
-/// 1, or the power of two by which too much light for RGBD is divided.
-float intensity_for(float largest) {
-    if (largest <= kLargestRgbd) return 1.0f;
-    return std::exp2(std::ceil(std::log2(largest / kLargestRgbd)));
-}
-
 Result<GltfImageBasedLight> make_light(const ReflectionsView& all, size_t probe,
                                        const std::string& name) {
     GltfImageBasedLight light;
     light.name = name;
     light.is_sky = all.probes[probe].is_everywhere();
-    light.intensity = intensity_for(largest_channel(all, probe));
+    light.intensity = intensity_for_rgbd(largest_channel(all, probe));
     light.size = all.size;
     const auto& irradiance = all.probes[probe].irradiance.coefficients;
     for (size_t i = 0; i < irradiance.size(); ++i)
@@ -71,7 +54,7 @@ Result<GltfImageBasedLight> make_light(const ReflectionsView& all, size_t probe,
     light.levels.resize(all.level_count);
     for (uint32_t level = 0; level < all.level_count; ++level) {
         for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
-            ImageF image = mirrored_face(all, probe, level, face);
+            ImageF image = face_image(all, probe, level, face);
             for (glm::vec3& texel : image.pixels) texel /= light.intensity;
             auto bytes = encode_png(encode_rgbd(image));
             if (!bytes) return bytes.error();

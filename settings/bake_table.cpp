@@ -15,7 +15,8 @@ constexpr Setting kFiles[] = {
      .access = Access::Command},
     {.name = "groups",
      .type = Type::Path,
-     .help = "Probe groups in addition to the scene's own: a .json file or a glTF scene",
+     .help = "Probe groups in addition to the scene's own: a .json, .csv, .tscn (Godot), .unity or "
+             ".prefab file, or a glTF scene",
      .without = "the scene's own",
      .short_name = 'g',
      .is_list = true},

@@ -13,16 +13,14 @@ constexpr Setting kFiles[] = {
     {.name = "as",
      .type = Type::Choice,
      .help =
-         "Format. Of probe volumes: three-grid, bevy, unreal, gltf, vtu, json, csv "
-         "(docs/engines.md has "
-         "what "
-         "each "
-         "keeps and loses). Of lightmaps and reflection probes: exr = 32-bit float images, of a "
-         "cube its six faces one below the other; ktx2 = one array texture of 16-bit floats; png "
-         "= RGBM images; glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection "
-         "probe as EXT_lights_image_based; preview = PNG images for looking at, with the "
-         "rectangle of each object",
-     .choices = "exr ktx2 png glb preview three-grid bevy unreal gltf vtu json csv",
+         "Format. Of lightmaps and reflection probes: exr = 32-bit float images, of a cube its six "
+         "faces one below the other; ktx2 = one array texture of 16-bit floats; png = RGBM images; "
+         "glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection probe as "
+         "EXT_lights_image_based; preview = PNG images for looking at, with the rectangle of each "
+         "object. The others are for probe volumes: docs/engines.md has what each keeps and loses",
+     .choices =
+         "exr ktx2 png glb preview three-grid bevy unreal godot unity playcanvas filament babylon "
+         "gltf vtu json csv blender",
      .without = "by the extension of the output"}};
 
 constexpr Setting kVolumeSettings[] = {

@@ -5,7 +5,9 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting groups() {
-    Setting setting = input_file("groups", "Probe groups: .json files, or glTF scenes");
+    Setting setting = input_file(
+        "groups",
+        "Probe groups: .json, .csv, .tscn (Godot), .unity and .prefab files, and glTF scenes");
     setting.is_list = true;
     return setting;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {readFileSync, readdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
 import {gzipSync} from 'node:zlib';
 import type {Plugin} from 'vite';
 import {defineConfig} from 'vitest/config';
@@ -22,8 +23,15 @@ function compress(): Plugin {
     };
 }
 
+const kPackage = fileURLToPath(new URL('../packages/js/src', import.meta.url));
+
 export default defineConfig({
     plugins: [compress()],
+    resolve: {
+        alias: [{find: /^tetralight$/, replacement: `${kPackage}/index.ts`},
+                {find: /^tetralight\/three$/, replacement: `${kPackage}/three/index.ts`}],
+        dedupe: ['three'],  // of viewer/node_modules
+    },
     build: {
         outDir: '../build/viewer',
         emptyOutDir: true,

@@ -34,6 +34,11 @@ const std::array<float, 256>& powers_of_codes() {
 
 }  // namespace
 
+float intensity_for_rgbd(float largest_channel) {
+    if (largest_channel <= kLargestRgbd) return 1.0f;
+    return std::exp2(std::ceil(std::log2(largest_channel / kLargestRgbd)));
+}
+
 Image8 encode_rgbd(const ImageF& light) {
     Image8 image{light.width, light.height, {}};
     image.pixels.reserve(light.pixels.size());

@@ -15,6 +15,9 @@ namespace tetralight {
 /// The most that RGBD holds.
 inline constexpr float kLargestRgbd = 255.0f;
 
+/// 1, or the power of two by which light is divided so that its largest channel fits into RGBD.
+[[nodiscard]] float intensity_for_rgbd(float largest_channel);
+
 /// Encodes light up to 255; more is clamped. A largest channel of 0.25 or more is rounded to 1 % of
 /// its value, one of 0.01 to 4 %.
 [[nodiscard]] Image8 encode_rgbd(const ImageF& light);

@@ -5,6 +5,7 @@
 #include <tetralight/bake/scene/detail/gltf_parts.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/reflection/cube.h>
 
 namespace tetralight {
 namespace {
@@ -79,6 +80,16 @@ Status use_light(GltfJson& document, uint32_t scene, size_t light) {
     return Ok{};
 }
 
+/// The file with a light that its scene uses.
+Result<std::vector<std::byte>> lit_scene(detail::GltfParts& parts, uint32_t scene,
+                                         const GltfImageBasedLight& light) {
+    const auto index = add_light(parts.json, light_json(light, add_images(light, parts)));
+    if (!index) return index.error();
+    if (auto status = use_light(parts.json, scene, *index); !status) return status.error();
+    parts.use_extension(kExtension);
+    return parts.glb();
+}
+
 Result<std::vector<std::byte>> lit(const detail::GltfDocument& document,
                                    const GltfImageBasedLight& light) {
     if (!document.scene_roots) {
@@ -87,12 +98,7 @@ Result<std::vector<std::byte>> lit(const detail::GltfDocument& document,
     }
     auto parts = detail::GltfParts::open(document);
     if (!parts) return parts.error();
-    const auto index = add_light(parts->json, light_json(light, add_images(light, *parts)));
-    if (!index) return index.error();
-    if (auto status = use_light(parts->json, document.scene, *index); !status)
-        return status.error();
-    parts->use_extension(kExtension);
-    return parts->glb();
+    return lit_scene(*parts, document.scene, light);
 }
 
 }  // namespace
@@ -101,6 +107,20 @@ Result<std::vector<std::byte>> make_image_based_light_glb(const std::string& pat
                                                           const GltfImageBasedLight& light) {
     return detail::rewrite_gltf(
         path, {}, [&](const detail::GltfDocument& document) { return lit(document, light); });
+}
+
+Result<std::vector<std::byte>> make_image_based_light_glb(const GltfImageBasedLight& light) {
+    detail::GltfParts parts;
+    parts.json = {{"asset", {{"version", "2.0"}, {"generator", "Tetralight"}}},
+                  {"scene", 0},
+                  {"scenes", GltfJson::array({GltfJson::object()})}};
+    return lit_scene(parts, 0, light);
+}
+
+glm::vec3 image_based_light_direction(uint32_t face, uint32_t x, uint32_t y,
+                                      uint32_t size) noexcept {
+    const uint32_t world_face = face < 2 ? 1 - face : face;
+    return cube_direction(CubeTexel{world_face, size - 1 - x, size - 1 - y}, size);
 }
 
 }  // namespace tetralight

@@ -42,4 +42,14 @@ struct GltfImageBasedLight {
 [[nodiscard]] Result<std::vector<std::byte>> make_image_based_light_glb(
     const std::string& path, const GltfImageBasedLight& light);
 
+/// A glTF scene that has nothing but this light, as the bytes of a .glb file.
+[[nodiscard]] Result<std::vector<std::byte>> make_image_based_light_glb(
+    const GltfImageBasedLight& light);
+
+/// The direction in glTF's world of the light in pixel (x, y) of the image of a face, as Babylon.js
+/// shows it in left-handed scenes. These have x mirrored, which exchanges the faces of x and
+/// mirrors columns; images start with the last row. Precondition: face < 6, x and y < size.
+[[nodiscard]] glm::vec3 image_based_light_direction(uint32_t face, uint32_t x, uint32_t y,
+                                                    uint32_t size) noexcept;
+
 }  // namespace tetralight

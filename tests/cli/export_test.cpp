@@ -154,6 +154,8 @@ TEST_F(ExportVolume, TheOutputNamesTheFormatIfOnlyOneHasItsExtension) {
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.vtu"})["as"], "vtu");
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.csv"})["as"], "csv");
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.json"}), "--as is required"));
+    // Lightmaps have this one, too.
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "--as", "csv", "-o", "v.txt"}),
                          "--output: v.txt: a file for csv ends with .csv"));
 }
@@ -194,6 +196,20 @@ TEST_F(ExportVolume, GlbIsAScene) {
     EXPECT_TRUE(scene) << (scene ? "" : error_text(scene.error()));
 }
 
+TEST_F(ExportVolume, EnginesGetAScriptBesideTheirFile) {
+    const Json godot = run_json({"export", "v.probes", "-o", "court.tres"});
+    EXPECT_EQ(godot["files"], (Json{"court.tres", "court.gd"}));
+    EXPECT_TRUE(contains(read("court.gd"), "preload(\"court.tres\")"));
+    EXPECT_TRUE(contains(read("court.tres"), "type=\"LightmapGIData\""));
+    const Json unity = run_json({"export", "v.probes", "--as", "unity", "-o", "court.json"});
+    EXPECT_EQ(unity["files"], (Json{"court.json", "TetralightProbes.cs"}));
+    EXPECT_EQ(Json::parse(read("court.json"))["positions"].size(), 15u);
+    write("none.json", R"({"groups": [{"name": "a", "positions": []}]})");
+    succeed({"tetrahedralize", "none.json", "-o", "none.probes"});
+    EXPECT_TRUE(contains(fail({"export", "none.probes", "-o", "none.tres"}),
+                         "none.probes: has no probes; Godot needs at least one"));
+}
+
 TEST_F(ExportVolume, SettingsBelongToFormats) {
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--spacing", "1"}),
                          "--spacing: is for grids, and vtu is not a grid"));
@@ -208,6 +224,20 @@ TEST_F(ExportVolume, SettingsBelongToFormats) {
                          "--bounds: the minimum is not below the maximum along each axis"));
     EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", "v.png"}),
                          "v.probes: contains probes; --as names a format for them"));
+}
+
+TEST_F(ExportVolume, PlacesAreThoseOfTheOption) {
+    succeed({"export", "v.probes", "--as", "playcanvas", "--at", "1,1,1", "--at", "0,2,0.5", "-o",
+             "p.json"});
+    const Json places = Json::parse(read("p.json"))["places"];
+    ASSERT_EQ(places.size(), 2u);
+    EXPECT_EQ(places[1]["position"], (Json{0, 2, 0.5}));
+    succeed({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "-o", "p.txt"});
+    EXPECT_EQ(run_json({"export", "v.probes", "--as", "babylon", "-o", "p.glb"})["lost"][1],
+              "The light of all places but 2, 2, 2.");
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "filament", "--at", "1,1,1", "--at",
+                               "2,2,2", "-o", "p.txt"}),
+                         "--at: the format holds the light of one place, and there are 2"));
 }
 
 TEST_F(ExportVolume, OldFilesStay) {

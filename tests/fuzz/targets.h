@@ -20,6 +20,10 @@ namespace tetralight::fuzz {
 /// Groups of probes as JSON: read with an error, or merged and joined to a volume that is valid.
 [[nodiscard]] std::string fuzz_probe_groups(uint64_t seed);
 
+/// Files of probe groups of other programs (CSV, Godot, Unity) with parts changed: read with an
+/// error that names the file, or to groups with names of their own and finite positions.
+[[nodiscard]] std::string fuzz_imports(uint64_t seed);
+
 /// PNG, JPEG, WebP and OpenEXR files with bytes changed, and checksums of PNG repaired: decoded
 /// with an error, or to an image of the size that the header has.
 [[nodiscard]] std::string fuzz_images(uint64_t seed);
@@ -38,6 +42,9 @@ namespace tetralight::fuzz {
 
 /// JSON; must be refused if the name of the file begins with "refused_".
 [[nodiscard]] std::string replay_probe_groups(const std::string& path);
+
+/// A file of `fuzz_imports`; must be refused if the name of the file begins with "refused_".
+[[nodiscard]] std::string replay_import(const std::string& path);
 
 /// An image or a glTF file; must be refused if the name of the file begins with "refused_".
 [[nodiscard]] std::string replay_image(const std::string& path);

@@ -44,6 +44,7 @@ const std::map<std::string, std::string> kLibraries = {
     {"tetgen.h", "TetGen"},
     {"webp/", "libwebp"},
     {"xxhash", "xxHash"},
+    {"yaml.h", "libyaml"},
 };
 
 /// The files of the product (no tests, benchmarks or examples) that include each library.

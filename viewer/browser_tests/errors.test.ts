@@ -26,14 +26,14 @@ test('a killed server is noticed, and the page recovers when it is back', () => 
     const height = page.getByLabel('Position of the ball, metres y');
     await page.click('#tab-query');
     await server.kill();
+    await page.getByText('The server does not answer').waitFor();
+    // Queries need no server.
+    await page.locator('.answer h2').evaluate(heading => { heading.textContent = 'of before'; });
     await height.fill('3');
     await height.press('Tab');
-    await page.getByText('The server does not answer').waitFor();
-    await page.locator('.answer h2').evaluate(heading => { heading.textContent = 'of before'; });
+    await page.locator('.answer h2', {hasText: /^(Hull c|C)ell \d+$/}).waitFor();
     await server.start();
     await page.locator('#banner').waitFor({state: 'hidden'});
-    // What was asked in vain is asked again.
-    await page.locator('.answer h2', {hasText: /^(Hull c|C)ell \d+$/}).waitFor();
     expect(await page.textContent('#status')).toBe('courtyard · court: 255 probes');
 }, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/}));
 

@@ -116,12 +116,6 @@ export class Api {
         return answer.arrayBuffer();
     }
 
-    async query(volume: string, body: ArrayBuffer): Promise<ArrayBuffer> {
-        const answer = await this.request('POST', `/v1/volumes/${volume}/query`, body,
-                                          'application/octet-stream');
-        return answer.arrayBuffer();
-    }
-
     /** All files of a kind, the newest first. */
     async list(kind: Kind): Promise<StoredFile[]> {
         const files: StoredFile[] = [];

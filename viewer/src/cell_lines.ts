@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as three from 'three';
 
-import type {Edges} from './volume';
+import type {Edges} from './cell_edges';
 
 /** The edges of cells: those of the hull in orange, as `render --wireframe` draws them. */
 export class CellLines {

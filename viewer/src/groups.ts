@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Probe groups as values: every edit gives new ones and leaves the old for undo.
-import type {Volume} from './volume';
+import {kNone, VolumeData} from 'tetralight';
 
 export type Position = readonly [number, number, number];
 
@@ -63,16 +63,17 @@ function layersOf(mask: number): number[] {
  * The groups that a volume was made from. Probes that were left out are not in it. A group is on the rendering layers
  * of most of its probes: others were welded to probes of other groups, or changed by adjustment volumes.
  */
-export function groupsOfVolume(volume: Volume): Groups {
-    const lists: Position[][] = volume.groupNames.map(() => []);
-    const masks: number[][] = volume.groupNames.map(() => []);
-    for (let i = 0; i + 2 < volume.sources.length; i += 3) {
-        const [group, , probe] = volume.sources.subarray(i, i + 3);
-        if (probe >= volume.probeCount) continue;
-        lists[group].push([...volume.exactPositions.subarray(3 * probe, 3 * probe + 3)] as unknown as Position);
-        masks[group].push(volume.renderingLayers[probe] ?? kAllLayers);
+export function groupsOfVolume(volume: VolumeData): Groups {
+    const {groupNames, sources, exactPositions, renderingLayers} = volume;
+    const lists: Position[][] = groupNames.map(() => []);
+    const masks: number[][] = groupNames.map(() => []);
+    for (let i = 0; i < sources.length; i += 3) {
+        const [group, , probe] = sources.subarray(i, i + 3);
+        if (probe === kNone) continue;
+        lists[group].push([...exactPositions.subarray(3 * probe, 3 * probe + 3)] as unknown as Position);
+        masks[group].push(renderingLayers[probe] ?? kAllLayers);
     }
-    return volume.groupNames.map((name, i) => {
+    return groupNames.map((name, i) => {
         const mask = mostFrequent(masks[i]);
         return {name, ...(mask === kAllLayers ? {} : {rendering_layers: layersOf(mask)}), positions: lists[i]};
     });

@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Probe groups by hand, in 3D: what is chosen, moved, undone; the server joins the probes meanwhile.
+import type {Volume} from 'tetralight';
 import * as three from 'three';
 
 import type {Alerts} from './alerts';
 import type {Api, StoredFile} from './api';
+import {edgesOf} from './cell_edges';
 import {CellLines} from './cell_lines';
 import * as groups from './groups';
 import type {Gizmo} from './gizmo';
 import {Newest} from './newest';
 import {pickBall, ProbeBalls} from './probe_balls';
 import type {Stage} from './stage';
-import {edgesOf} from './volume';
+import {readVolume} from './volume';
 
 interface Edit {
     groups: groups.Groups;
     selection: readonly groups.Ref[];
-}
-
-interface Joined {
-    positions: Float32Array;
-    cells: Uint32Array;
-    innerCellCount: number;
 }
 
 export class GroupsEditor {
@@ -39,7 +35,7 @@ export class GroupsEditor {
     private pivotStart = new three.Vector3();
     private dragged: Float32Array = new Float32Array();
     private radius = 0.15;
-    private readonly newest: Newest<groups.Groups, Joined | null>;
+    private readonly newest: Newest<groups.Groups, Volume | null>;
 
     constructor(private readonly stage: Stage, private readonly gizmo: Gizmo, private readonly api: Api,
                 private readonly changed: () => void, alerts: Alerts) {
@@ -246,7 +242,7 @@ export class GroupsEditor {
     }
 
     /** What the server makes of the probes; it keeps nothing of it but what was saved. */
-    private async join(now: groups.Groups): Promise<Joined | null> {
+    private async join(now: groups.Groups): Promise<Volume | null> {
         if (groups.countOf(now) === 0) return null;
         const text = groups.formatGroups(now);
         const kept = [await this.api.upload('groups', text)];
@@ -254,23 +250,21 @@ export class GroupsEditor {
         try {
             kept.push(await this.api.keep('/v1/tetrahedralize', {groups: [kept[0].file.id]}));
             paths.push(`/v1/volumes/${kept[1].file.id}`);
-            const [positions, cells] = await Promise.all(['exact_positions', 'cells'].map(
-                name => this.api.bytes(`${paths[1]}/sections/${name}`)));
-            return {
-                positions: new Float32Array(new Float64Array(positions)),
-                cells: new Uint32Array(cells),
-                innerCellCount: kept[1].file.report!.inner_cells as number,
-            };
+            return readVolume(await this.api.bytes(`${paths[1]}/file`), 'of these groups');
         } finally {
             const made = paths.filter((_, i) => kept[i].isNew && (i > 0 || !this.saved.has(text)));
             await Promise.all(made.map(path => this.api.remove(path).catch(() => {})));
         }
     }
 
-    private showJoined(joined: Joined | null): void {
-        if (joined === null) this.lines.clear();
-        else this.lines.show(joined.positions, edgesOf(joined.cells, joined.innerCellCount));
-        if (!this.newest.isWaiting) this.tetrahedra = joined?.innerCellCount ?? null;
+    private showJoined(joined: Volume | null): void {
+        if (joined === null) {
+            this.lines.clear();
+        } else {
+            const {exactPositions, cells, info: {innerCellCount}} = joined.data;
+            this.lines.show(new Float32Array(exactPositions), edgesOf(cells, innerCellCount));
+        }
+        if (!this.newest.isWaiting) this.tetrahedra = joined?.data.info.innerCellCount ?? null;
         this.changed();
         this.stage.draw();
     }

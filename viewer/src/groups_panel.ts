@@ -86,7 +86,7 @@ export class GroupsPanel {
     }
 
     private take(): void {
-        if (this.viewer.volume !== null) this.openKept(groups.groupsOfVolume(this.viewer.volume));
+        if (this.viewer.volume !== null) this.openKept(groups.groupsOfVolume(this.viewer.volume.probes.data));
     }
 
     private openKept(found: groups.Groups): void {

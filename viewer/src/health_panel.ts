@@ -3,7 +3,7 @@
 import {formatPercent} from './colors';
 import {button, element, labelled, select} from './dom';
 import type {Viewer} from './viewer';
-import type {Volume} from './volume';
+import type {OpenVolume} from './volume';
 
 const kRows = 200;
 type Order = 'error' | 'validity' | 'surface' | 'probe';
@@ -20,7 +20,7 @@ export function healthPanel(viewer: Viewer): HTMLElement {
             return;
         }
         const probes = sorted(volume, order).slice(0, kRows);
-        facts.textContent = volume.probeCount > kRows ? `The first ${kRows} of ${volume.probeCount}.` : '';
+        facts.textContent = volume.probes.probeCount > kRows ? `The first ${kRows} of ${volume.probes.probeCount}.` : '';
         body.replaceChildren(...probes.map(probe => row(viewer, volume, probe)));
     };
     viewer.onChange(show);
@@ -41,9 +41,8 @@ export function healthPanel(viewer: Viewer): HTMLElement {
                                        name => element('th', {scope: 'col'}, name)))), body)));
 }
 
-export function sorted(volume: Volume, order: Order): number[] {
-    const probes = [...volume.health.keys()];
-    const {health, validity} = volume;
+export function sorted({health, probes: {data: {validity}}}: OpenVolume, order: Order): number[] {
+    const probes = [...health.keys()];
     const key: Record<Order, (probe: number) => number> = {
         error: probe => -health[probe].error,
         validity: probe => validity[probe] ?? 1,
@@ -58,16 +57,17 @@ function mark(shown: HTMLTableRowElement, selected: number): void {
     else shown.removeAttribute('aria-current');
 }
 
-function row(viewer: Viewer, volume: Volume, probe: number): HTMLElement {
+function row(viewer: Viewer, volume: OpenVolume, probe: number): HTMLElement {
     const {error, surface, offset, isDilated} = volume.health[probe];
+    const distance = Math.hypot(...offset);
     const number = (text: string) => element('td', {class: 'number'}, text);
     const made = element('tr', {'data-probe': probe},
                    element('td', {}, button(String(probe), () => viewer.selectProbe(probe),
                                             {class: 'link', 'aria-label': `Show probe ${probe}`})),
                    number(formatPercent(error)),
-                   number((volume.validity[probe] ?? 1).toFixed(2)),
+                   number((volume.probes.data.validity[probe] ?? 1).toFixed(2)),
                    number(Number.isFinite(surface) ? `${surface.toFixed(2)} m` : '–'),
-                   number(isDilated ? 'dilated' : offset > 0 ? `${offset.toFixed(2)} m` : '–'));
+                   number(isDilated ? 'dilated' : distance > 0 ? `${distance.toFixed(2)} m` : '–'));
     mark(made, viewer.selectedProbe);
     return made;
 }

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A grid of light over a whole volume, for the scene's surfaces. Its points are located once by one
-// query; after that any light of the same probes is blended here, so that sliders relight at once.
+// The light of a volume as a proxy volume of seven slabs, the 3D texture that runtime/shaders/lppv.glsl samples. The cells
+// of its grid points are kept, so that another light of the same probes is found at once.
+import {kNone, kPacked, Volume} from 'tetralight';
 import * as three from 'three';
 
-import type {Api} from './api';
-import {packedLight} from './packed_light';
-import {decodeAnswer, encodeQuery, Locations, WantedSh} from './query_binary';
-import {kPacked} from './sh';
 import {emptyConstants, LppvUniforms} from './shaders';
-import type {Light, Volume} from './volume';
 
 const kMostPoints = 12000;
 
+/** Its outer points are on the faces of its box. */
 export interface Grid {
     low: three.Vector3;
     size: three.Vector3;
-    resolution: number[];
+    resolution: number[];  // at least 2 along each axis
 }
 
 /** At most `kMostPoints` points in a box, about equally far apart along all axes. */
@@ -27,33 +24,36 @@ export function gridOf(box: three.Box3): Grid {
 }
 
 export function pointsOf({low, size, resolution: [nx, ny, nz]}: Grid): Float32Array {
-    const points: number[] = [];
+    const points = new Float32Array(3 * nx * ny * nz);
+    let at = 0;
     for (let z = 0; z < nz; ++z) {
         for (let y = 0; y < ny; ++y) {
             for (let x = 0; x < nx; ++x) {
-                points.push(low.x + size.x * x / (nx - 1), low.y + size.y * y / (ny - 1),
-                            low.z + size.z * z / (nz - 1));
+                points[at++] = low.x + size.x * x / (nx - 1);
+                points[at++] = low.y + size.y * y / (ny - 1);
+                points[at++] = low.z + size.z * z / (nz - 1);
             }
         }
     }
-    return new Float32Array(points);
+    return points;
 }
 
 export class LightField {
     readonly uniforms: LppvUniforms = {lppv: {value: null}, lppvConstants: {value: emptyConstants()}};
     private volume: Volume | null = null;
-    private places: Locations | null = null;
+    private points: Float32Array = new Float32Array();
+    private cells = new Uint32Array();
     private resolution = [1, 1, 1];
 
     constructor() {
-        this.show(new Uint16Array(7 * 4), [1, 1, 1]);
+        this.clear();
     }
 
-    async place(api: Api, volume: Volume, box: three.Box3): Promise<void> {
-        const grid = gridOf(box);
-        const body = await api.query(volume.file.id, encodeQuery(pointsOf(grid), WantedSh.None));
-        this.places = decodeAnswer(body).locations;
+    /** Fills a grid with the light that a volume has now. */
+    place(volume: Volume, grid: Grid): void {
         this.volume = volume;
+        this.points = pointsOf(grid);
+        this.cells = new Uint32Array(this.points.length / 3).fill(kNone);
         this.resolution = grid.resolution;
         // The box's faces are the middles of the outer texels.
         const n = new three.Vector3(...grid.resolution);
@@ -64,15 +64,17 @@ export class LightField {
         constants.params.set(1, 0, 1 / (7 * n.x), 0);
         constants.low.set(low.x, low.y, low.z, 0);
         constants.size_inverse.set(1 / size.x, 1 / size.y, 1 / size.z, 0);
+        this.relight();
     }
 
-    /** Fills the texture with the light that probes have now. */
-    relight(light: Light): void {
-        if (this.places === null || this.volume === null) return;
+    /** The same after the light of the volume changed. */
+    relight(): void {
+        if (this.volume === null) return;
         const [nx] = this.resolution;
-        const texels = new Uint16Array(this.places.count * kPacked);
-        const packed = packedLight(this.volume, light, this.places);
-        for (let i = 0; i < this.places.count; ++i) {
+        const packed = new Float32Array(this.cells.length * kPacked);
+        this.volume.batch(this.points, {packed, hints: this.cells});
+        const texels = new Uint16Array(packed.length);
+        for (let i = 0; i < this.cells.length; ++i) {
             const row = Math.floor(i / nx) * 7 * nx + i % nx;
             for (let k = 0; k < kPacked; ++k) {
                 const texel = row + Math.floor(k / 4) * nx;
@@ -83,13 +85,13 @@ export class LightField {
     }
 
     clear(): void {
-        this.places = null;
+        this.volume = null;
         this.show(new Uint16Array(7 * 4), [1, 1, 1]);
     }
 
-    private show(texels: Uint16Array, [nx, ny, nz]: number[]): void {
+    private show(texels: Uint16Array<ArrayBuffer>, [nx, ny, nz]: number[]): void {
         this.uniforms.lppv.value?.dispose();
-        const texture = new three.Data3DTexture(texels as Uint16Array<ArrayBuffer>, 7 * nx, ny, nz);
+        const texture = new three.Data3DTexture(texels, 7 * nx, ny, nz);
         texture.format = three.RGBAFormat;
         texture.type = three.HalfFloatType;
         texture.minFilter = texture.magFilter = three.LinearFilter;

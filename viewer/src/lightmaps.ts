@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lightmaps on the surfaces of a scene (docs/lightmaps.md): a scene that says where each mesh lies in
 // the pages, and pages, which may change.
+import type {Lightmaps} from 'tetralight';
 import * as three from 'three';
 import type {GLTF} from 'three/addons/loaders/GLTFLoader.js';
 
@@ -13,13 +14,6 @@ export interface LightmapPlace {
     channel: number;  // of its UVs
     scale: number[];
     offset: number[];
-}
-
-/** Irradiance of square pages: half floats RGBA, times `scale`. */
-export interface LightmapPages {
-    size: number;
-    scale: number;
-    pages: Uint16Array[];
 }
 
 interface GltfNode {
@@ -64,29 +58,6 @@ export function placesOf(gltf: GLTF): LightmapPlace[] {
     return places;
 }
 
-/** The sections of a `.lightmaps` file by name (docs/file_format.md). */
-export function sectionsOf(file: ArrayBuffer): Map<string, ArrayBuffer> {
-    const view = new DataView(file);
-    const sections = new Map<string, ArrayBuffer>();
-    const number = (at: number) => Number(view.getBigUint64(at, true));
-    for (let entry = 64; entry < 64 + 64 * view.getUint32(12, true); entry += 64) {
-        const name = new TextDecoder().decode(new Uint8Array(file, entry, 24)).replace(/\0+$/, '');
-        const begin = number(entry + 24);
-        sections.set(name, file.slice(begin, begin + number(entry + 32) * number(entry + 40)));
-    }
-    return sections;
-}
-
-/** Pages from the sections `info` and `irradiance`. */
-export function readPages(info: ArrayBuffer, irradiance: ArrayBuffer): LightmapPages {
-    const view = new DataView(info);
-    const size = view.getUint32(0, true);
-    const length = 4 * size * size;
-    const pages = Array.from({length: view.getUint32(4, true)},
-                             (_, page) => new Uint16Array(irradiance, 2 * page * length, length));
-    return {size, scale: view.getFloat32(12, true), pages};
-}
-
 /** The lightmaps of a scene that is shown. */
 export class SceneLightmaps {
     private textures: three.DataTexture[] = [];
@@ -100,11 +71,13 @@ export class SceneLightmaps {
         return this.textures.length > 0;
     }
 
-    setPages({size, scale, pages}: LightmapPages): void {
+    setPages({pageSize, pageCount, scale, irradiance}: Lightmaps): void {
         this.dispose();
         this.scale = scale;
-        this.textures = pages.map(page => {
-            const texture = new three.DataTexture(page, size, size, three.RGBAFormat, three.HalfFloatType);
+        const length = 4 * pageSize * pageSize;
+        this.textures = Array.from({length: pageCount}, (_, i) => {
+            const page = irradiance.subarray(i * length, (i + 1) * length) as Uint16Array<ArrayBuffer>;
+            const texture = new three.DataTexture(page, pageSize, pageSize, three.RGBAFormat, three.HalfFloatType);
             texture.minFilter = texture.magFilter = three.LinearFilter;
             return texture;
         });

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// A proxy volume to place and size: a large white block, each pixel lit from the served 3D texture.
+// A proxy volume to place and size: a large white block, each pixel lit from its 3D texture.
+import type {Volume} from 'tetralight';
 import * as three from 'three';
 
-import {parseLppv} from './ktx2';
-import {emptyConstants, lightByLppv, LppvUniforms} from './shaders';
+import {Grid, LightField} from './light_field';
+import {lightByLppv} from './shaders';
 
 /** Of each edge, in metres. */
 export const kLeastSize = 0.05;
+
+const kPointsPerMeter = 2;
+const kMostPoints = 32;  // along an axis
 
 export class LppvBox {
     /** Its position and scale are the box's middle and size. */
     readonly group = new three.Group();
     private readonly block: three.Mesh;
-    private readonly uniforms: LppvUniforms = {
-        lppv: {value: null}, lppvConstants: {value: emptyConstants()},
-    };
+    private readonly field = new LightField();
 
     constructor() {
         const material = new three.MeshLambertMaterial({color: 0xffffff});
-        lightByLppv(material, this.uniforms);
+        lightByLppv(material, this.field.uniforms);
         this.block = new three.Mesh(new three.BoxGeometry(0.96, 0.96, 0.96), material);
         this.block.castShadow = true;
         this.block.receiveShadow = true;
@@ -30,24 +32,25 @@ export class LppvBox {
         this.group.scale.set(6, 1, 1);
     }
 
-    /** What to ask the server for. */
-    order(volume: string): Record<string, unknown> {
-        const {position: p, scale: s} = this.group;
-        const bounds = [p.x - s.x / 2, p.y - s.y / 2, p.z - s.z / 2,
-                        p.x + s.x / 2, p.y + s.y / 2, p.z + s.z / 2];
-        const resolution = s.toArray().map(length => Math.min(32, Math.max(2, Math.ceil(2 * length) + 1)));
-        return {volume, bounds, resolution, format: 'ktx2', mode: 'full', precision: 'half'};
-    }
-
-    show(file: ArrayBuffer): void {
-        const {texture, constants} = parseLppv(file);
-        this.uniforms.lppv.value?.dispose();
-        this.uniforms.lppv.value = texture;
-        this.uniforms.lppvConstants.value = constants;
+    /** Finds the light of a volume where the box is now. */
+    place(volume: Volume): void {
+        this.field.place(volume, this.grid);
         this.block.visible = true;
     }
 
+    relight(): void {
+        if (this.block.visible) this.field.relight();
+    }
+
     clear(): void {
+        this.field.clear();
         this.block.visible = false;
+    }
+
+    get grid(): Grid {
+        const {position, scale} = this.group;
+        const resolution = scale.toArray().map(
+            length => Math.min(kMostPoints, Math.max(2, Math.ceil(kPointsPerMeter * length) + 1)));
+        return {low: position.clone().addScaledVector(scale, -0.5), size: scale.clone(), resolution};
     }
 }

@@ -51,7 +51,7 @@ class Page {
             found: () => {
                 alerts.clear();
                 this.status.tell('The server answers again.');
-                void this.load().then(() => this.query.ask());
+                void this.load();
                 this.groups.editor.askAgain();
             },
             unauthorized: () => {
@@ -176,7 +176,7 @@ class Page {
     private whatIsShown(): string {
         const {volume, sceneFile} = this.viewer;
         const words = [sceneFile === null ? '' : nameOf(sceneFile),
-                       volume === null ? '' : `${nameOf(volume.file)}: ${counted(volume.probeCount, 'probe')}`];
+                       volume === null ? '' : `${nameOf(volume.file)}: ${counted(volume.probes.probeCount, 'probe')}`];
         return words.filter(word => word !== '').join(' · ') || 'Nothing is open.';
     }
 
@@ -233,8 +233,6 @@ class Page {
 
     private linkNow(): string {
         const {viewer} = this;
-        const changed = (viewer.volume?.layers ?? []).map((layer, i) => [layer.name, viewer.weights[i]] as const)
-                            .filter(([, weight], i) => weight !== viewer.volume!.layers[i].weight);
         return toLink({
             volume: viewer.volume?.file.id,
             scene: viewer.sceneFile?.id,
@@ -246,7 +244,7 @@ class Page {
             exposure: Number(viewer.stage.exposure.toPrecision(4)),
             hidden: [...viewer.hidden],
             color: viewer.color === 'light' ? '' : viewer.color,
-            weights: Object.fromEntries(changed),
+            weights: viewer.changedWeights,
         });
     }
 

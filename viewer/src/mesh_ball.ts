@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1023 instances that turn about a place, all lit by one query a frame.
+import {kNone, kPacked, Volume} from 'tetralight';
 import * as three from 'three';
 
 import {hideMirror, Mirror} from './mirror';
-import {packedLight} from './packed_light';
-import {decodeAnswer, encodeQuery, WantedSh} from './query_binary';
-import {kPacked} from './sh';
 import {lightInstances, setInstanceSh} from './shaders';
-import type {Light, Volume} from './volume';
 
 const kCount = 1023;
 
@@ -16,6 +13,8 @@ export class MeshBall {
     private readonly packed: three.InstancedInterleavedBuffer;
     private readonly directions: three.Vector3[];
     private readonly distances: number[];
+    private readonly positions = new Float32Array(3 * kCount);
+    private readonly cells = new Uint32Array(kCount).fill(kNone);
     private readonly box = new three.Box3();
     private mirror: Mirror | null = null;
     private chooseCubes = () => {};
@@ -50,27 +49,25 @@ export class MeshBall {
         else this.chooseCubes = mirror.showOn({material, shine: 'instances', box: () => this.box});
     }
 
-    /** Moves all instances, and gives the question for their light. */
-    turn(center: three.Vector3, radius: number, seconds: number): ArrayBuffer {
-        const positions = new Float32Array(kCount * 3);
+    /** Moves all instances. */
+    turn(center: three.Vector3, radius: number, seconds: number): void {
         const axis = new three.Vector3(0, 1, 0);
         const matrix = new three.Matrix4();
         const size = 0.04 * radius;
         this.directions.forEach((direction, i) => {
             const place = direction.clone().applyAxisAngle(axis, 0.3 * seconds)
                               .multiplyScalar(radius * this.distances[i]).add(center);
-            place.toArray(positions, 3 * i);
+            place.toArray(this.positions, 3 * i);
             this.mesh.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(place));
         });
         this.mesh.instanceMatrix.needsUpdate = true;
         this.box.setFromCenterAndSize(center, new three.Vector3().setScalar(2 * (radius + size)));
         this.chooseCubes();
-        return encodeQuery(positions, WantedSh.Packed);
     }
 
-    show(body: ArrayBuffer, volume: Volume, light: Light | null): void {
-        const answer = decodeAnswer(body);
-        this.packed.array.set(light === null ? answer.sh : packedLight(volume, light, answer.locations));
+    /** Finds the light of all instances. */
+    light(volume: Volume): void {
+        volume.batch(this.positions, {packed: this.packed.array as Float32Array, hints: this.cells});
         this.packed.needsUpdate = true;
     }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflection probes on surfaces (docs/reflections.md, "How they are used"): what render/mirror.h shows, by
 // runtime/shaders/reflection.glsl in three's materials.
+import {kPacked, packSh, ReflectionProbe, Reflections} from 'tetralight';
 import * as three from 'three';
 
 import reflection from '../../runtime/shaders/reflection.glsl?raw';
-import {probesNear, ReflectionProbe, Reflections} from './reflections';
+import {hasBox, probesNear} from './reflections';
 import {addPosition, setMirrorShader, Shader, shShader, uniformsOf} from './shaders';
 import {kTableSize, splitSumTable} from './split_sum';
 
@@ -71,8 +72,7 @@ export class Mirror {
         setUniforms(material, {
             reflectionCubes: chosen.map(probe => this.cubes[probe]),
             reflectionProbes: chosen.map(probe => constantsOf(probes[probe], probe)),
-            reflectionSh: chosen.flatMap(probe => Array.from(
-                {length: 7}, (_, i) => new three.Vector4().fromArray(probes[probe].irradiance, 4 * i))),
+            reflectionSh: chosen.flatMap(probe => packedSh(probes[probe])),
         });
     }
 }
@@ -92,19 +92,28 @@ export function hideMirror(material: three.Material): void {
 }
 
 /** The twin of `make_shader_reflection_probe` of runtime/shader_reflections.h. */
-function constantsOf({position, box, blendDistance}: ReflectionProbe, probe: number): ProbeConstants {
-    const vector = (v: three.Vector3 | undefined, w: number) => new three.Vector4(v?.x ?? 0, v?.y ?? 0, v?.z ?? 0, w);
+function constantsOf(probe: ReflectionProbe, index: number): ProbeConstants {
+    const {position, boxCenter, halfSize, axes, blendDistance} = probe;
+    const isBoxed = hasBox(probe);
+    const vector = ([x, y, z]: readonly number[], w: number) => new three.Vector4(x, y, z, w);
+    const ofBox = (v: readonly number[], w = 0) => vector(isBoxed ? v : [0, 0, 0], w);
     return {
-        position: vector(position, probe), box_center: vector(box?.center, blendDistance),
-        half_size: vector(box?.halfSize, box === null ? 0 : 1),
-        x_axis: vector(box?.axes[0], 0), y_axis: vector(box?.axes[1], 0), z_axis: vector(box?.axes[2], 0),
+        position: vector(position, index), box_center: ofBox(boxCenter, blendDistance),
+        half_size: ofBox(halfSize, Number(isBoxed)),
+        x_axis: ofBox(axes.slice(0, 3)), y_axis: ofBox(axes.slice(3, 6)), z_axis: ofBox(axes.slice(6, 9)),
     };
 }
 
+function packedSh({sh}: ReflectionProbe): three.Vector4[] {
+    const packed = new Float32Array(kPacked);
+    packSh(sh, 0, packed, 0);
+    return Array.from({length: 7}, (_, i) => new three.Vector4().fromArray(packed, 4 * i));
+}
+
 /** three takes level 0 from the texture's images, and smaller levels from its mipmaps. */
-function cubeTexture({size, levelCount, faces}: Reflections, probe: number): three.CubeTexture {
-    const level = (i: number) => faces(probe, i).map(texels => new three.DataTexture(
-        texels, size >> i, size >> i, three.RGBAFormat, three.HalfFloatType));
+function cubeTexture({size, levelCount, texels}: Reflections, probe: number): three.CubeTexture {
+    const level = (i: number) => facesOf(texels(probe, i)).map(face => new three.DataTexture(
+        face, size >> i, size >> i, three.RGBAFormat, three.HalfFloatType));
     const texture = new three.CubeTexture(level(0));
     texture.format = three.RGBAFormat;
     texture.type = three.HalfFloatType;
@@ -116,6 +125,11 @@ function cubeTexture({size, levelCount, faces}: Reflections, probe: number): thr
     texture.mipmaps = smaller as unknown as typeof texture.mipmaps;
     texture.needsUpdate = true;
     return texture;
+}
+
+function facesOf(cube: Uint16Array): Uint16Array<ArrayBuffer>[] {
+    const each = cube.length / 6;
+    return Array.from({length: 6}, (_, face) => cube.subarray(face * each, (face + 1) * each) as Uint16Array<ArrayBuffer>);
 }
 
 function tableTexture(): three.DataTexture {

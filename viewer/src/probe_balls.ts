@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // All probes as one instanced draw of balls that show their light.
+import {kCoefficients, kPacked, packSh} from 'tetralight';
 import * as three from 'three';
 import {mergeVertices} from 'three/addons/utils/BufferGeometryUtils.js';
 
 import {instanceAttributes, setInstanceSh, shShader} from './shaders';
-import {kCoefficients, kPacked, packSh} from './sh';
 
 const kVertex = shShader + instanceAttributes + `
 attribute vec3 center;
@@ -68,9 +68,10 @@ export class ProbeBalls {
         this.mesh.frustumCulled = false;
     }
 
+    /** 27 floats a probe; empty: black. */
     setLight(irradiance: Float32Array): void {
         const packed = this.packed.array as Float32Array;
-        for (let i = 0; i < this.count; ++i) packSh(irradiance, i * kCoefficients, packed, i * kPacked);
+        for (let i = 0; i < irradiance.length / kCoefficients; ++i) packSh(irradiance, i * kCoefficients, packed, i * kPacked);
         this.packed.needsUpdate = true;
     }
 

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball that is dragged about: its cell, the probes around it, their weights, and the light they give.
+// A ball that is dragged about, lit by the probes around it, and the edges of its cell.
+import {kNone, Light, Volume} from 'tetralight';
+import {ProbeVolume} from 'tetralight/three';
 import * as three from 'three';
-
-import {packedLight} from './packed_light';
-import {decodeAnswer, encodeQuery, Locations, WantedSh} from './query_binary';
-import {lightBySh} from './shaders';
-import {cornersOf, Light, Volume} from './volume';
-
-export interface QueryAnswer {
-    places: Locations;
-    packed: Float32Array;
-}
 
 export class QueryObject {
     readonly group = new three.Group();
     readonly ball: three.Mesh;
-    private readonly sh = {value: Array.from({length: 7}, () => new three.Vector4())};
     private readonly lines: three.LineSegments;
+    private probes: ProbeVolume | null = null;
+    private cell = kNone;  // where it was
 
     constructor() {
-        const material = new three.MeshLambertMaterial({color: 0xffffff});
-        lightBySh(material, this.sh);
-        this.ball = new three.Mesh(new three.SphereGeometry(1, 32, 20), material);
+        this.ball = new three.Mesh(new three.SphereGeometry(1, 32, 20), new three.MeshLambertMaterial({color: 0xffffff}));
         this.ball.receiveShadow = true;
         this.ball.castShadow = true;
         this.lines = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial(
@@ -31,25 +22,31 @@ export class QueryObject {
         this.group.add(this.ball, this.lines);
     }
 
-    get question(): ArrayBuffer {
-        return encodeQuery(new Float32Array(this.ball.position.toArray()), WantedSh.Packed);
+    /** Takes its light from the probes of a volume from now on. */
+    lightBy(volume: Volume | null): void {
+        if (this.probes !== null && this.probes.volume === volume) return;
+        this.probes?.remove(this.ball);
+        this.probes = volume === null ? null : new ProbeVolume(volume);
+        this.probes?.add(this.ball);
+        this.cell = kNone;
     }
 
-    /** Shows an answer; the light is the server's, or blended here when layers have other weights. */
-    show(body: ArrayBuffer, volume: Volume, light: Light | null): QueryAnswer {
-        const answer = decodeAnswer(body);
-        const packed = light === null ? answer.sh.slice() : packedLight(volume, light, answer.locations);
-        this.sh.value.forEach((vector, i) => vector.fromArray(packed, 4 * i));
-        this.outline(volume, answer.locations.cells[0]);
-        return {places: answer.locations, packed};
+    /** Shows the light where it is now; null without a volume. */
+    query(): Light | null {
+        if (this.probes === null) return null;
+        const {volume} = this.probes;
+        this.ball.updateWorldMatrix(true, false);
+        this.probes.refresh();
+        const light = volume.light(this.ball.position.toArray(), {hint: this.cell});
+        this.cell = light.cell;
+        this.outline(volume, light.probes);
+        return light;
     }
 
-    /** The edges of the cell, and lines to its probes. */
-    private outline(volume: Volume, cell: number): void {
-        const corners = cornersOf(volume.cells, cell).map(
-            probe => new three.Vector3().fromArray(volume.positions, 3 * probe));
-        const ends: three.Vector3[] = [];
-        corners.forEach((a, i) => corners.slice(i + 1).forEach(b => ends.push(a, b)));
+    /** The edges of the cell. */
+    private outline(volume: Volume, probes: readonly number[]): void {
+        const corners = probes.map(probe => new three.Vector3(...volume.position(probe)));
+        const ends = corners.flatMap((a, i) => corners.slice(i + 1).flatMap(b => [a, b]));
         this.lines.geometry.dispose();
         this.lines.geometry = new three.BufferGeometry().setFromPoints(ends);
     }

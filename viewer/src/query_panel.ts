@@ -1,47 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Query by hand: a ball to drag, a crowd of 1023, a proxy volume to place.
+import {irradiance, Light, Volume} from 'tetralight';
 import * as three from 'three';
 
 import {button, checkbox, element, select, setVector, slider, vectorInput, labelled} from './dom';
 import {kLeastSize, LppvBox} from './lppv_box';
 import {MeshBall} from './mesh_ball';
-import {Newest} from './newest';
 import type {PointerUse} from './pointer';
-import {QueryAnswer, QueryObject} from './query_object';
-import {samplePacked} from './sh';
+import {QueryObject} from './query_object';
 import type {Viewer} from './viewer';
-import {cornersOf, Volume} from './volume';
+import {isBaked} from './volume';
 
 export class QueryPanel {
     readonly element: HTMLElement;
     readonly object = new QueryObject();
     readonly pointer: PointerUse;
-    /** Milliseconds that the last queries took, for `bench viewer`. */
-    readonly roundTrips: number[] = [];
+    /** Milliseconds that the queries of the ball took, for `bench viewer`. */
+    readonly times: number[] = [];
     private readonly ball = new MeshBall();
     private readonly box = new LppvBox();
-    private readonly newest: Newest<ArrayBuffer, {body: ArrayBuffer; volume: Volume}>;
-    private readonly boxNewest: Newest<Record<string, unknown>, ArrayBuffer>;
     private readonly place: HTMLElement;
     private readonly answer = element('div', {class: 'answer', 'aria-live': 'polite'});
     private readonly boxInputs: HTMLElement[];
     private readonly plane = new three.Plane();
     private readonly grip = new three.Vector3();
     private isBallOn = false;
-    private isBallBusy = false;
     private radius = 2;
 
     constructor(private readonly viewer: Viewer) {
         const {stage} = viewer;
-        this.newest = new Newest(question => this.send(question), ({body, volume}) => {
-            viewer.alerts.succeed('query');
-            this.show(body, volume);
-        }, error => viewer.alerts.report('query', error));
-        this.boxNewest = new Newest(order => viewer.api.make('/v1/lppv', order), file => {
-            viewer.alerts.succeed('box');
-            this.box.show(file);
-            stage.draw();
-        }, error => viewer.alerts.report('box', error));
         stage.scene.add(this.object.group);
         this.object.group.visible = false;
 
@@ -55,8 +42,8 @@ export class QueryPanel {
         ];
         this.element = element(
             'section', {'aria-label': 'Query'},
-            element('p', {class: 'hint'}, 'Drag the ball in the scene, or type its position. The server ' +
-                    'answers for each place: the yellow cell is where it lies.'),
+            element('p', {class: 'hint'}, 'Drag the ball in the scene, or type its position. The yellow ' +
+                    'cell is where it lies.'),
             this.place, this.answer,
             element('h2', {}, 'Mesh ball'),
             this.needy(checkbox('1023 instances, one query a frame', false, isOn => this.turnOn(isOn))),
@@ -71,7 +58,7 @@ export class QueryPanel {
                 () => this.box.group.position.copy(this.object.ball.position)))));
         this.pointer = this.makePointer();
         viewer.onChange(() => this.settle());
-        viewer.onLight(() => this.ask());
+        viewer.onLight(() => this.follow());
         viewer.onReflections(() => this.ball.mirrorBy(viewer.shownMirror));
     }
 
@@ -91,21 +78,30 @@ export class QueryPanel {
     moveTo(position: three.Vector3): void {
         this.object.ball.position.copy(position);
         setVector(this.place, position.toArray());
-        this.ask();
+        this.query();
         this.viewer.stage.draw();
     }
 
-    /** Asks what light the ball has where it is now. */
-    ask(): void {
-        if (this.viewer.volume !== null) this.newest.ask(this.object.question);
+    /** Shows the light that the ball has where it is now. */
+    private query(): void {
+        const start = performance.now();
+        const light = this.object.query();
+        if (light === null) return;
+        this.times.push(performance.now() - start);
+        this.tell(light, this.viewer.volume!.probes);
+    }
+
+    /** The light of the volume is another. */
+    private follow(): void {
+        this.query();
+        this.box.relight();
     }
 
     /** A new volume or scene: the ball stays where it is, in the middle at first. */
     private settle(): void {
         const {volume, box, balls} = this.viewer;
-        this.newest.forget();
-        this.boxNewest.forget();
         this.box.clear();
+        this.object.lightBy(volume?.probes ?? null);
         const wasVisible = this.object.group.visible;
         this.object.group.visible = volume !== null;
         if (volume === null) return;
@@ -119,40 +115,22 @@ export class QueryPanel {
         if (this.box.group.parent !== null) this.moveBox(() => {});
     }
 
-    private async send(question: ArrayBuffer) {
-        const volume = this.viewer.volume!;
-        const start = performance.now();
-        const body = await this.viewer.api.query(volume.file.id, question);
-        this.roundTrips.push(performance.now() - start);
-        return {body, volume};
-    }
-
-    private show(body: ArrayBuffer, volume: Volume): void {
-        const light = this.viewer.isAsStored ? null : this.viewer.light;
-        this.tell(this.object.show(body, volume, light), volume);
-        this.viewer.stage.draw();
-    }
-
-    private tell({places, packed}: QueryAnswer, volume: Volume): void {
-        const cell = places.cells[0];
-        const corners = cornersOf(volume.cells, cell);
-        const kind = corners.length === 0 ? 'No cell: ambient light' :
-            `${cell < volume.innerCellCount ? 'Cell' : 'Hull cell'} ${cell}`;
-        const rows = corners.map((probe, i) => element(
+    private tell({cell, probes, weights, sh}: Light, {data: {info}}: Volume): void {
+        const kind = probes.length === 0 ? 'No cell: ambient light' :
+            `${cell < info.innerCellCount ? 'Cell' : 'Hull cell'} ${cell}`;
+        const rows = probes.map((probe, i) => element(
             'tr', {}, element('td', {}, button(`probe ${probe}`, () => this.viewer.selectProbe(probe), {class: 'link'})),
-            element('td', {class: 'number'}, places.weights[i].toFixed(3)),
-            element('td', {}, meter(places.weights[i]))));
-        const up = samplePacked(packed, 0, [0, 1, 0]);
-        const down = samplePacked(packed, 0, [0, -1, 0]);
-        const text = (light: number[]) => light.map(x => x.toFixed(3)).join(', ');
+            element('td', {class: 'number'}, weights[i].toFixed(3)),
+            element('td', {}, meter(weights[i]))));
+        const text = (normal: number[]) => irradiance(sh, normal).map(x => (x / Math.PI).toFixed(3)).join(', ');
         this.answer.replaceChildren(
             element('h2', {}, kind),
             element('table', {}, element('caption', {}, 'Its probes'),
                     element('thead', {}, element('tr', {}, ...['Probe', 'Weight', 'Fraction'].map(
                         name => element('th', {scope: 'col'}, name)))),
                     element('tbody', {}, ...rows)),
-            element('p', {class: 'facts'}, `Light from above (E/π): ${text(up)}`, element('br'),
-                    `from below: ${text(down)}`));
+            element('p', {class: 'facts'}, `Light from above (E/π): ${text([0, 1, 0])}`, element('br'),
+                    `from below: ${text([0, -1, 0])}`));
     }
 
     /** The ball is dragged in a plane that faces the camera. */
@@ -192,22 +170,15 @@ export class QueryPanel {
         }
     }
 
-    /** One query a frame; while it is under way, frames wait. */
+    /** One query a frame. */
     private frame(time: number): void {
         if (!this.isBallOn) return;
         requestAnimationFrame(next => this.frame(next));
         const {volume} = this.viewer;
-        if (this.isBallBusy || volume === null || document.hidden) return;
-        this.isBallBusy = true;
-        const question = this.ball.turn(this.object.ball.position, this.radius, time / 1000);
-        this.viewer.api.query(volume.file.id, question)
-            .then(body => {
-                if (volume !== this.viewer.volume) return;
-                this.ball.show(body, volume, this.viewer.isAsStored ? null : this.viewer.light);
-                this.viewer.stage.draw();
-            })
-            .catch(error => this.viewer.alerts.report('crowd', error))
-            .finally(() => { this.isBallBusy = false; });
+        if (volume === null || document.hidden) return;
+        this.ball.turn(this.object.ball.position, this.radius, time / 1000);
+        this.ball.light(volume.probes);
+        this.viewer.stage.draw();
     }
 
     private showBox(isOn: boolean): void {
@@ -234,9 +205,7 @@ export class QueryPanel {
         setVector(this.boxInputs[0], position.toArray());
         setVector(this.boxInputs[1], scale.toArray());
         const {volume, stage} = this.viewer;
-        if (this.box.group.parent !== null && volume?.isBaked) {
-            this.boxNewest.ask(this.box.order(volume.file.id));
-        }
+        if (this.box.group.parent !== null && volume !== null && isBaked(volume.probes)) this.box.place(volume.probes);
         stage.draw();
     }
 }

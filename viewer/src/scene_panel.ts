@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is shown, how bright, and the weights of layers.
+import type {Volume} from 'tetralight';
+
 import {StoredFile, titleOf} from './api';
 import {counted, countedTetrahedra} from './colors';
 import {button, checkbox, element, labelled, numberToSend, select, slider} from './dom';
 import type {Stage} from './stage';
 import type {Part, ProbeColor, Viewer} from './viewer';
+import {isBaked} from './volume';
 
 const kParts: [Part, string][] = [['scene', 'Scene'], ['probes', 'Probes'], ['cells', 'Cells and hull'],
                                     ['lightmaps', 'Lightmaps'], ['reflections', 'Reflections']];
@@ -29,11 +32,7 @@ export function scenePanel(viewer: Viewer): HTMLElement {
         color.value = viewer.color;
         showReflections(viewer, reflections);
         reflectionsRow.hidden = reflections.options.length === 1;
-        const {volume} = viewer;
-        facts.textContent = volume === null ? 'No volume is open.' :
-            counted(volume.probeCount, 'probe') +
-            (volume.probeCount < 4 ? '' : `, ${countedTetrahedra(volume.innerCellCount)}`) +
-            (volume.isBaked ? '' : '; not baked: bake it in the tab Bakes');
+        facts.textContent = viewer.volume === null ? 'No volume is open.' : factsOf(viewer.volume.probes);
         size.replaceChildren();
         if (viewer.balls !== null) {
             const {balls} = viewer;
@@ -52,6 +51,12 @@ export function scenePanel(viewer: Viewer): HTMLElement {
     return element('section', {'aria-label': 'View'}, facts, parts, reflectionsRow, exposureSlider(viewer.stage),
                    labelled('Probes show', color, 'Error bars: green 0.1 %, red 10 % and more.'), size,
                    element('h2', {}, 'Light'), light);
+}
+
+function factsOf(probes: Volume): string {
+    return counted(probes.probeCount, 'probe') +
+        (probes.probeCount < 4 ? '' : `, ${countedTetrahedra(probes.data.info.innerCellCount)}`) +
+        (isBaked(probes) ? '' : '; not baked: bake it in the tab Bakes');
 }
 
 /** The stored files to choose from, and the one that is open. */
@@ -79,17 +84,13 @@ function exposureSlider(stage: Stage): HTMLElement {
 
 function layerSliders(viewer: Viewer): HTMLElement[] {
     const {volume} = viewer;
-    if (volume === null || volume.layers.length === 0) {
+    if (volume === null || volume.probes.layers.length === 0) {
         return [element('p', {class: 'hint'}, 'Bake with layers (sun, sky, emission, …) to dim them here, ' +
                         'without another bake.')];
     }
-    const weights = [...viewer.weights];
-    if (weights.length === 0) weights.push(...volume.layers.map(layer => layer.weight));
-    const rows = volume.layers.map((layer, i) => slider(
-        layer.name, {min: 0, max: 4, step: 0.05, value: Number(weights[i].toPrecision(4))}, weight => {
-            weights[i] = weight;
-            viewer.relight([...weights]);
-        }));
+    const rows = volume.probes.layers.map(({name, weight}) => slider(
+        name, {min: 0, max: 4, step: 0.05, value: Number(weight.toPrecision(4))},
+        changed => void viewer.alerts.attempt('weights', async () => viewer.relight({[name]: changed}))));
     const keep = button('Keep as a volume', () => void viewer.alerts.attempt('relight', () => keepLight(viewer)));
     rows.push(element('div', {class: 'buttons'}, keep));
     if (volume.file.facts?.has_transfer === true) rows.push(skyForm(viewer));
@@ -98,7 +99,7 @@ function layerSliders(viewer: Viewer): HTMLElement[] {
 
 async function keepLight(viewer: Viewer): Promise<void> {
     const volume = viewer.volume!;
-    const weights = Object.fromEntries(volume.layers.map((layer, i) => [layer.name, viewer.weights[i]]));
+    const weights = Object.fromEntries(volume.probes.layers.map(({name, weight}) => [name, weight]));
     const made = await viewer.api.post<StoredFile>('/v1/relight', {volume: volume.file.id, weights});
     await viewer.openVolume(made.id);
     viewer.say('The light is stored as another volume.');

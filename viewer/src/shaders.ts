@@ -115,16 +115,6 @@ export function lightByLightmap(material: three.Material): void {
     setLightShader(material, 'lightmap', () => {});
 }
 
-/** Lights a material by the seven vec4 of one place. */
-export function lightBySh(material: three.Material, packed: {value: three.Vector4[]}): void {
-    uniformsOf(material).probeSh = packed;
-    setLightShader(material, 'sh', shader => {
-        addLight(shader, shShader + 'uniform vec4 probeSh[7];\n',
-                 'tetralight_sample_sh9(TetralightPackedSh(probeSh[0], probeSh[1], probeSh[2], probeSh[3], ' +
-                 'probeSh[4], probeSh[5], probeSh[6]), probeNormal)');
-    });
-}
-
 export const kInstanceSh = ['shaR', 'shaG', 'shaB', 'shbR', 'shbG', 'shbB', 'shC'];
 export const instanceAttributes = kInstanceSh.map(name => `attribute vec4 ${name};\n`).join('');
 

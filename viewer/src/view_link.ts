@@ -13,7 +13,7 @@ export interface ViewState {
     exposure?: number;
     hidden?: string[];
     color?: string;
-    weights?: Record<string, number>;
+    weights?: Record<string, number>;  // not negative
 }
 
 const round = (x: number) => Number(x.toFixed(3));
@@ -50,8 +50,8 @@ export function fromLink(link: string): ViewState {
     if (exposure > 0 && Number.isFinite(exposure)) state.exposure = exposure;
     if (params.has('hidden')) state.hidden = params.get('hidden')!.split(',');
     for (const [key, value] of params) {
-        if (!key.startsWith('w.') || !Number.isFinite(Number(value))) continue;
-        (state.weights ??= {})[key.slice(2)] = Number(value);
+        const weight = Number(value);
+        if (key.startsWith('w.') && weight >= 0 && weight < Infinity) (state.weights ??= {})[key.slice(2)] = weight;
     }
     return state;
 }

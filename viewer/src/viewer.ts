@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page shows: one scene, one volume, and the light that the volume has at these weights.
+import {LayerWeights, Lightmaps, readLightmaps, readReflections} from 'tetralight';
 import * as three from 'three';
 
 import type {Alerts} from './alerts';
 import {Api, ApiError, Bake, StoredFile} from './api';
+import {edgesOf} from './cell_edges';
 import {CellLines} from './cell_lines';
 import {badnessColor, errorBadness} from './colors';
 import {Gizmo} from './gizmo';
-import {LightField} from './light_field';
-import {LightmapPages, readPages, sectionsOf} from './lightmaps';
+import {gridOf, LightField} from './light_field';
 import {hideMirror, Mirror} from './mirror';
 import {ProbeBalls} from './probe_balls';
-import {parseReflections} from './reflections';
 import {disposeScene, loadScene, SceneModel} from './scene_model';
 import type {Stage} from './stage';
-import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volume';
-import {dimLights, dropLights, makeLights} from './volume_lights';
+import {isBaked, openVolume, OpenVolume, skyOf} from './volume';
+import {dimLights, directLights, dropLights, makeLights} from './volume_lights';
 
 export type ProbeColor = 'light' | 'validity' | 'error';
 export type Part = 'scene' | 'probes' | 'cells' | 'lightmaps' | 'reflections';
@@ -23,12 +23,10 @@ export type Part = 'scene' | 'probes' | 'cells' | 'lightmaps' | 'reflections';
 const kManyEdges = 30000;  // probes; drawing all their edges is slow
 
 export class Viewer {
-    volume: Volume | null = null;
+    volume: OpenVolume | null = null;
     model: SceneModel | null = null;
     sceneFile: StoredFile | null = null;
     bake: Bake | null = null;
-    weights: number[] = [];
-    light: Light = {irradiance: new Float32Array(), ambient: new Float32Array(27)};
     balls: ProbeBalls | null = null;
     color: ProbeColor = 'light';
     selectedProbe = -1;
@@ -85,7 +83,7 @@ export class Viewer {
     }
 
     /** Opens a volume with the scene of its bake, when that is known. */
-    async openVolume(reference: string, weights: Record<string, number> = {}): Promise<void> {
+    async openVolume(reference: string, weights: LayerWeights = {}): Promise<void> {
         const [file, {bakes}] = await Promise.all([
             this.api.get<StoredFile>(`/v1/volumes/${encodeURIComponent(reference)}`),
             this.api.get<{bakes: Bake[]}>('/v1/bakes')]);
@@ -96,11 +94,13 @@ export class Viewer {
         const scene = bake?.request?.scene as string | undefined;
         this.alerts.succeed('scene');
         const [volume] = await Promise.all([
-            readVolume(this.api, file),
+            openVolume(this.api, file),
             scene === undefined ? null : this.alerts.attempt('scene', () => this.openScene(scene))]);
+        const known = Object.entries(weights).filter(([name]) => volume.probes.layers.some(layer => layer.name === name));
+        if (known.length > 0) volume.probes.setWeights(Object.fromEntries(known));
         this.bake = bake;
-        this.showVolume(volume, weights);
-        await this.placeField();
+        this.showVolume(volume);
+        this.placeField();
     }
 
     closeVolume(): void {
@@ -134,26 +134,23 @@ export class Viewer {
         if (!isKnown) this.stage.lookAtAll(model.box);
         if (!isKnown && model.view !== null) this.stage.look(model.view.eye, model.view.target);
         this.lightScene();
-        await this.placeField();
+        this.placeField();
     }
 
     /** Shows the newest preview of a bake of lightmaps on its scene. */
     async showPreview(bake: string, scene: string): Promise<void> {
         const path = `/v1/bakes/${bake}/preview`;
-        const sections = sectionsOf(await this.api.bytes(`${path}/file`));
-        await this.showLightmaps(bake, scene, readPages(sections.get('info')!, sections.get('irradiance')!),
-                                 () => this.api.bytes(`${path}/scene`));
+        const lightmaps = readLightmaps(await this.api.bytes(`${path}/file`));
+        await this.showLightmaps(bake, scene, lightmaps, () => this.api.bytes(`${path}/scene`));
     }
 
     /** Shows stored lightmaps on their scene; `bake` made them. */
     async openLightmaps(id: string, scene: string, bake = id): Promise<void> {
-        const section = (name: string) => this.api.bytes(`/v1/lightmaps/${id}/sections/${name}`);
-        const [info, irradiance] = await Promise.all([section('info'), section('irradiance')]);
-        await this.showLightmaps(bake, scene, readPages(info, irradiance),
-                                 () => this.api.make(`/v1/lightmaps/${id}/export`, {scene}));
+        const lightmaps = readLightmaps(await this.api.bytes(`/v1/lightmaps/${id}/file`));
+        await this.showLightmaps(bake, scene, lightmaps, () => this.api.make(`/v1/lightmaps/${id}/export`, {scene}));
     }
 
-    private async showLightmaps(origin: string, scene: string, pages: LightmapPages,
+    private async showLightmaps(origin: string, scene: string, lightmaps: Lightmaps,
                                 unwrapped: () => Promise<ArrayBuffer>): Promise<void> {
         if (this.litBy !== origin) {
             const [file, bytes] = await Promise.all(
@@ -162,7 +159,7 @@ export class Viewer {
             this.litBy = origin;
         }
         const hadPages = this.hasLightmaps;
-        this.model!.lightmaps.setPages(pages);
+        this.model!.lightmaps.setPages(lightmaps);
         if (!hadPages) this.changed();
         this.stage.draw();
     }
@@ -175,7 +172,7 @@ export class Viewer {
     async openReflections(reference: string): Promise<void> {
         const path = `/v1/reflections/${encodeURIComponent(reference)}`;
         const file = reference === '' ? null : await this.api.get<StoredFile>(path);
-        const mirror = file === null ? null : new Mirror(parseReflections(await this.api.bytes(`${path}/file`)));
+        const mirror = file === null ? null : new Mirror(readReflections(await this.api.bytes(`${path}/file`)));
         this.mirror?.dispose();
         this.mirror = mirror;
         this.reflectionFile = file;
@@ -225,21 +222,27 @@ export class Viewer {
         return box.isEmpty() ? new three.Box3(new three.Vector3(-1, -1, -1), new three.Vector3(1, 1, 1)) : box;
     }
 
-    /** The light that layers give at these weights; probes, scene and all that asks follow. */
-    relight(weights: number[]): void {
+    /** Changes weights of layers; probes, scene and everything that shows the light follow. */
+    relight(changes: LayerWeights): void {
+        this.volume?.probes.setWeights(changes);
+        this.showLight();
+    }
+
+    /** The weights that are not those of the stored volume. */
+    get changedWeights(): LayerWeights {
+        if (this.volume === null) return {};
+        const {layers, data} = this.volume.probes;
+        const changed = layers.filter(({weight}, i) => weight !== data.layers[i].weight);
+        return Object.fromEntries(changed.map(({name, weight}) => [name, weight]));
+    }
+
+    private showLight(): void {
         if (this.volume === null) return;
-        this.weights = weights;
-        this.light = {irradiance: sumLayers(this.volume, weights), ambient: sumAmbient(this.volume, weights)};
-        this.balls?.setLight(this.light.irradiance);
-        this.field.relight(this.light);
+        this.balls?.setLight(this.volume.probes.irradiance);
+        this.field.relight();
         this.dim();
         this.stage.draw();
         for (const listener of this.lightListeners) listener();
-    }
-
-    /** Whether layers have the weights that the stored volume has. */
-    get isAsStored(): boolean {
-        return this.volume?.layers.every((layer, i) => layer.weight === this.weights[i]) ?? true;
     }
 
     show(part: Part, isShown: boolean): void {
@@ -276,29 +279,27 @@ export class Viewer {
         this.stage.look(at.clone().add(away).toArray(), at.toArray());
     }
 
-    private showVolume(volume: Volume, weights: Record<string, number>): void {
+    private showVolume(volume: OpenVolume): void {
         const hadNothing = this.volume === null && this.model === null;
         this.balls?.dispose();
         this.volume = volume;
         this.selectedProbe = -1;
-        this.balls = new ProbeBalls(volume.positions, ballRadius(volume));
+        this.balls = new ProbeBalls(volume.positions, ballRadius(volume.positions, volume.probes.data.cells));
         this.stage.scene.add(this.balls.mesh);
         this.hasEdges = false;
         this.lines.clear();
-        if (volume.probeCount > kManyEdges) this.hidden.add('cells');
+        if (volume.probes.probeCount > kManyEdges) this.hidden.add('cells');
         this.applyParts();
         this.tint();
         if (hadNothing) this.stage.lookAtAll(this.box);
-        this.weights = volume.layers.map(layer => weights[layer.name] ?? layer.weight);
         this.lightScene();
         this.changed();
-        this.relight(this.weights);
+        this.showLight();
     }
 
-    private async placeField(): Promise<void> {
-        if (this.volume === null || this.volume.probeCount === 0) return;
-        await this.field.place(this.api, this.volume, this.model?.box ?? this.box);
-        this.field.relight(this.light);
+    private placeField(): void {
+        if (this.volume === null || this.volume.probes.probeCount === 0) return;
+        this.field.place(this.volume.probes, gridOf(this.model?.box ?? this.box));
         this.stage.draw();
     }
 
@@ -310,7 +311,8 @@ export class Viewer {
         if (this.balls !== null) this.balls.mesh.visible = !this.isHandedOver && !this.hidden.has('probes');
         const hasLines = !this.isHandedOver && !this.hidden.has('cells');
         if (hasLines && !this.hasEdges && this.volume !== null) {
-            this.lines.show(this.volume.positions, edgesOf(this.volume.cells, this.volume.innerCellCount));
+            const {positions, probes: {data: {cells, info}}} = this.volume;
+            this.lines.show(positions, edgesOf(cells, info.innerCellCount));
             this.hasEdges = true;
         }
         this.lines.group.visible = hasLines;
@@ -328,10 +330,11 @@ export class Viewer {
     private tint(): void {
         const {volume, selectedProbe} = this;
         if (volume === null) return;
+        const {validity} = volume.probes.data;
         this.balls?.setTint(probe => {
             if (probe === selectedProbe) return [1, 0.75, 0, 0.85];
-            if (this.color === 'validity' && volume.validity.length > 0) {
-                return [...badnessColor(1 - volume.validity[probe]), 1];
+            if (this.color === 'validity' && validity.length > 0) {
+                return [...badnessColor(1 - validity[probe]), 1];
             }
             if (this.color === 'error' && volume.health.length > 0) {
                 return [...badnessColor(errorBadness(volume.health[probe].error)), 1];
@@ -343,7 +346,8 @@ export class Viewer {
 
     /** A volume that was baked knows its lights; else those of the scene shine. */
     private lightScene(): void {
-        const lights = this.volume?.isBaked ? this.volume.lights : null;
+        const probes = this.volume?.probes;
+        const lights = probes && isBaked(probes) ? directLights(probes) : null;
         dropLights(this.lights);
         this.lights = makeLights(lights ?? [], this.box);
         this.lights.visible = this.model?.root.visible ?? false;
@@ -354,7 +358,7 @@ export class Viewer {
 
     /** Lights, surfaces and sky shine as much as the layers do that their light is in. */
     private dim(): void {
-        dimLights(this.lights, this.weights);
+        dimLights(this.lights, this.volume?.probes.layers ?? []);
         for (const material of this.model?.emitters ?? []) {
             material.userData.strength ??= material.emissiveIntensity;
             material.emissiveIntensity = material.userData.strength *
@@ -365,14 +369,13 @@ export class Viewer {
 
     /** The weight of the first of these layers that there is. */
     private weightOf(...names: string[]): number {
-        const layers = this.volume?.layers ?? [];
-        const found = names.map(name => layers.findIndex(layer => layer.name === name)).find(i => i >= 0);
-        return found === undefined ? 1 : this.weights[found] ?? layers[found].weight;
+        const layers = this.volume?.probes.layers ?? [];
+        return names.map(name => layers.find(layer => layer.name === name)).find(layer => layer)?.weight ?? 1;
     }
 
     /** The volume's, or that of the order of its bake, or the scene's. */
     private setSky(): void {
-        const sky = this.volume?.sky ?? this.bake?.request?.sky ?? this.model?.sky;
+        const sky = (this.volume && skyOf(this.volume.probes)) ?? this.bake?.request?.sky ?? this.model?.sky;
         const radiance = typeof sky === 'number' ? [sky, sky, sky] : Array.isArray(sky) ? sky as number[] : null;
         if (radiance === null) this.stage.sky.radiance.set(0x11151c);
         else this.stage.sky.radiance.fromArray(radiance).multiplyScalar(this.weightOf('sky', 'rest'));
@@ -385,8 +388,7 @@ export class Viewer {
 }
 
 /** A fourteenth of the usual distance between neighbors. */
-export function ballRadius(volume: {positions: Float32Array; cells: Uint32Array}): number {
-    const {positions, cells} = volume;
+export function ballRadius(positions: Float32Array, cells: Uint32Array): number {
     const lengths: number[] = [];
     const step = Math.max(8, Math.floor(cells.length / 8 / 500) * 8);
     for (let at = 0; at + 8 <= cells.length; at += step) {

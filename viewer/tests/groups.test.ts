@@ -46,7 +46,7 @@ test('transforms of files are applied, column-major', () => {
 
 test('groups of a volume have its exact positions; probes that were left out are missing', () => {
     const volume = {
-        groupNames: ['a', 'b'], probeCount: 2, exactPositions: new Float64Array([0.1, 0.2, 0.3, 1, 2, 3]),
+        groupNames: ['a', 'b'], exactPositions: new Float64Array([0.1, 0.2, 0.3, 1, 2, 3]),
         sources: new Uint32Array([0, 0, 1, 1, 0, 0xffffffff, 1, 1, 0]), renderingLayers: new Uint32Array(),
     };
     expect(groups.groupsOfVolume(volume as never)).toEqual([
@@ -56,7 +56,7 @@ test('groups of a volume have its exact positions; probes that were left out are
 
 test('groups of a volume are on the rendering layers of most of their probes', () => {
     const volume = {
-        groupNames: ['a', 'b'], probeCount: 4, exactPositions: new Float64Array(12),
+        groupNames: ['a', 'b'], exactPositions: new Float64Array(12),
         // Probe 2 is welded: it is on the layers of both groups.
         sources: new Uint32Array([0, 0, 0, 0, 1, 1, 0, 2, 2, 1, 0, 2, 1, 1, 3, 1, 2, 3]),
         renderingLayers: new Uint32Array([0x80000001, 0x80000001, 0xffffffff, 0xffffffff]),

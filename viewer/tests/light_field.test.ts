@@ -3,6 +3,7 @@ import * as three from 'three';
 import {expect, test} from 'vitest';
 
 import {gridOf, pointsOf} from '../src/light_field';
+import {kLeastSize, LppvBox} from '../src/lppv_box';
 import {pickBall} from '../src/probe_balls';
 
 test('the points of a grid go from face to face of its box', () => {
@@ -20,6 +21,16 @@ test('flat and endless boxes have grids of bounded size', () => {
         for (const count of resolution) expect(count).toBeGreaterThanOrEqual(2);
         expect(resolution.reduce((product, n) => product * n, 1)).toBeLessThanOrEqual(20000);
     }
+});
+
+test('the grid of a proxy volume has its faces, and two points or more along each edge', () => {
+    const box = new LppvBox();
+    box.group.position.set(1, 2, 3);
+    box.group.scale.set(6, kLeastSize, 100);
+    const {low, size, resolution} = box.grid;
+    expect(low.toArray()).toEqual([-2, 2 - kLeastSize / 2, -47]);
+    expect(size.toArray()).toEqual([6, kLeastSize, 100]);
+    expect(resolution).toEqual([13, 2, 32]);
 });
 
 test('a ray picks the nearest ball in front of it', () => {

@@ -9,10 +9,3 @@ export function random(seed: number): () => number {
         return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
     };
 }
-
-export function randomNormal(draw: () => number): number[] {
-    const z = 2 * draw() - 1;
-    const turn = 2 * Math.PI * draw();
-    const r = Math.sqrt(1 - z * z);
-    return [r * Math.cos(turn), r * Math.sin(turn), z];
-}

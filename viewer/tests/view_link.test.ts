@@ -12,6 +12,6 @@ test('a link gives back the view', () => {
 });
 
 test('what cannot be read is left out', () => {
-    expect(fromLink('#eye=1,2&target=a,b,c&exposure=-1&w.sun=x&volume=v')).toEqual({volume: 'v'});
+    expect(fromLink('#eye=1,2&target=a,b,c&exposure=-1&w.sun=x&w.sky=-1&volume=v')).toEqual({volume: 'v'});
     expect(fromLink('')).toEqual({});
 });

@@ -1,89 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of three.js against the light of the volume.
-import {existsSync} from 'node:fs';
-import {join} from 'node:path';
-
-import {Browser, chromium, Page} from 'playwright-core';
-import {build, Rollup} from 'vite';
+// Objects of WebGLRenderer against the light of the volume.
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
-import {irradiance, read, Volume} from '../src/index.js';
-import {Folder, kCommand, kCourtyard} from '../tests/command.js';
-import {makePositions, makeRandom} from '../tests/random.js';
-import type {Kind, page as PageOfBrowser} from './page.js';
-
-const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
-const kRoot = join(__dirname, '..');
-const kAlbedo = 0.5;
-const kCount = 40;
+import {irradiance, kCoefficients} from '../src/index.js';
+import {makeRandom} from '../tests/random.js';
+import {kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {compareSpheres, compareSquares} from './three_compare.js';
+import type {page as PageOfBrowser} from './three_page.js';
+import type {Kind} from './three_squares.js';
 
 type Window = {page: typeof PageOfBrowser};
+const kCount = 40;
 
-const folder = new Folder();
-let browser: Browser | undefined;
-afterAll(async () => {
-    folder.remove();
-    await browser?.close();
-});
-
-async function openPage(): Promise<Page> {
-    const built = await build({
-        root: kRoot, configFile: false, logLevel: 'error', define: {'process.env.NODE_ENV': '"production"'},
-        build: {write: false, target: 'es2022',
-                lib: {entry: join(__dirname, 'page.ts'), formats: ['iife'], name: 'unused', fileName: 'page'}},
-    }) as Rollup.RollupOutput[];
-    browser = await chromium.launch({executablePath: kChromium, args: [
-        '--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-        '--ignore-gpu-blocklist']});
-    const page = await (await browser.newContext()).newPage();
-    await page.addScriptTag({content: (built[0].output[0] as Rollup.OutputChunk).code});
-    return page;
-}
-
-describe.skipIf(kCommand === '' || kCourtyard === '' || !existsSync(kChromium))('in three.js', () => {
-    let volume: Volume;
-    let file: string;
-    let page: Page;
-    let squares: {position: number[]; normal: number[]}[];
+describe.skipIf(!kCanTest)('in three.js', () => {
+    let lit: LitSquares;
+    let opened: TestPage;
     beforeAll(async () => {
-        const bytes = folder.bake(undefined, '--layers', 'sun,sky');
-        volume = read(bytes);
-        file = Buffer.from(bytes).toString('base64');
-        page = await openPage();
-        const positions = makePositions(volume, 2 * kCount, 50);
-        const random = makeRandom(51);
-        squares = Array.from({length: kCount}, (_, i) => {
-            const normal = [random() - 0.5, random() - 0.5, random() - 0.5];
-            const length = Math.hypot(...normal);
-            return {position: [...positions.subarray(6 * i + 3, 6 * i + 6)], normal: normal.map(x => x / length)};
-        }).filter(({position}) => Math.hypot(...position) < 1000);
+        lit = new LitSquares();
+        opened = await TestPage.open('three_page.ts');
     });
-
-    /** Radiance of a square: albedo / π · E, and never negative. */
-    const expected = ({position, normal}: {position: number[]; normal: number[]}) =>
-        irradiance(volume.light(position).sh, normal).map(value => kAlbedo / Math.PI * Math.max(value, 0));
-
-    // Standard material reflects the less diffuse light, the more its specular lobe reflects of all directions: 1.4 %.
-    const tolerance = (kind: Kind) => kind === 'standard' ? 0.015 : 1e-3;
-
-    function compare(kind: Kind, colors: number[][]): void {
-        expect(colors).toHaveLength(squares.length);
-        const largest = Math.max(...squares.flatMap(expected));
-        colors.forEach((color, i) => {
-            const want = expected(squares[i]);
-            color.forEach((value, k) => expect(Math.abs(value - want[k]), `square ${i}`).toBeLessThan(tolerance(kind) * largest));
-        });
-    }
+    afterAll(async () => opened?.close());
 
     test.each([
         ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
         ['instances', 'standard'], ['instances', 'phong'], ['batch', 'lambert'], ['skin', 'lambert'],
     ] as ['meshes' | 'instances' | 'batch' | 'skin', Kind][])('%s of %s material have the light of probes', async (way, kind) => {
-        const colors = await page.evaluate(([bytes, shade, given, all]) => {
-            const {page: tools} = window as unknown as Window;
-            return tools[shade](tools.open(bytes), given, all);
-        }, [file, way, kind, squares] as const);
-        compare(kind, colors);
+        const colors = await opened.page.evaluate(([bytes, shade, given, all]) => {
+            const {page} = window as unknown as Window;
+            return page[shade](page.open(bytes), given, all);
+        }, [lit.base64, way, kind, lit.squares] as const);
+        compareSquares(lit, kind, colors);
+    });
+
+    test.each([
+        ['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true],
+    ] as [Kind, boolean][])('spheres of %s material have the light of probes in 8 bits (instances: %s)', async (kind, isInstanced) => {
+        const exposure = 1 / lit.brightest;
+        const spheres = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
+            const {page} = window as unknown as Window;
+            return page.spheres(page.open(bytes), given, all, factor, instanced);
+        }, [lit.base64, kind, lit.squares, exposure, isInstanced] as const);
+        compareSpheres(lit, kind, exposure, spheres);
     });
 
     test('the grid of three.js has the light at the centers of its cells', async () => {
@@ -98,29 +55,71 @@ describe.skipIf(kCommand === '' || kCourtyard === '' || !existsSync(kChromium))(
             const center = resolution.map((count, i) => low[i] + (Math.floor(count * random()) + 0.5) * step[i]);
             return {normal, center, position: center.map((x, i) => x - normal[i] * step[i] / 2)};
         });
-        const colors = await page.evaluate(([bytes, all, from, to, counts]) => {
-            const {page: tools} = window as unknown as Window;
-            return tools.grid(tools.open(bytes), all, from, to, counts);
-        }, [file, cells, low, high, resolution] as const);
-        const wanted = cells.map(({center, normal}) => expected({position: center, normal}));
+        const colors = await opened.page.evaluate(([bytes, all, from, to, counts]) => {
+            const {page} = window as unknown as Window;
+            return page.grid(page.open(bytes), all, from, to, counts);
+        }, [lit.base64, cells, low, high, resolution] as const);
+        const wanted = cells.map(({center, normal}) => lit.radiance({position: center, normal}));
         const largest = Math.max(...wanted.flat());
         colors.forEach((color, i) => {
             color.forEach((value, k) => expect(Math.abs(value - wanted[i][k]), `cell ${i}`).toBeLessThan(2e-3 * largest));
         });
     });
 
+    test('a character has the light at its anchor, where its bone is', async () => {
+        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.skin(page.open(bytes), 'lambert', all, true);
+        }, [lit.base64, lit.squares] as const));
+    });
+
+    test('instances that move take new light, and no others are looked for', async () => {
+        const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
+            const {page} = window as unknown as Window;
+            return page.moving(page.open(bytes), all);
+        }, [lit.base64, lit.squares] as const);
+        const all = 50 * lit.squares.length;
+        expect(counts).toEqual([all, lit.squares.length, all / 2]);
+        for (const each of colors) compareSquares(lit, 'lambert', each);
+    });
+
     test('objects follow the weights of layers', async () => {
-        const square = squares[0];
-        const [before, after] = await page.evaluate(([bytes, given]) => {
-            const {page: tools} = window as unknown as Window;
-            return tools.dim(tools.open(bytes), given, {sky: 0.25});
-        }, [file, square] as const);
-        const full = expected(square);
+        const square = lit.squares[0];
+        const [before, after] = await opened.page.evaluate(([bytes, given]) => {
+            const {page} = window as unknown as Window;
+            return page.dim(page.open(bytes), given, {sky: 0.25});
+        }, [lit.base64, square] as const);
+        const full = lit.radiance(square);
         before.forEach((value, k) => expect(value).toBeCloseTo(full[k], 2));
-        volume.setWeights({sky: 0.25});
-        const dimmed = expected(square);
-        volume.setWeights({sky: 1});
+        lit.volume.setWeights({sky: 0.25});
+        const dimmed = lit.radiance(square);
+        lit.volume.setWeights({sky: 1});
         after.forEach((value, k) => expect(value).toBeCloseTo(dimmed[k], 2));
         expect(after[0]).toBeLessThan(before[0]);
+    });
+
+    test('the helper shows the light of probes and the edges of cells', async () => {
+        const probes = [0, 5, lit.volume.probeCount - 1];
+        const normal = [0.48, 0.6, 0.64];
+        const shown = await opened.page.evaluate(([bytes, all, view]) => {
+            const {page} = window as unknown as Window;
+            return page.helper(page.open(bytes), all, view, {sky: 0.25});
+        }, [lit.base64, probes, normal] as const);
+        const wanted = () => probes.map(i => irradiance(lit.volume.irradiance, normal, kCoefficients * i));
+        // Balls interpolate light between their corners.
+        const compare = (colors: number[][], want: number[][]) => colors.flat().forEach((value, i) => {
+            expect(Math.abs(value - Math.max(0, want.flat()[i]) / Math.PI)).toBeLessThan(0.01 * Math.max(...want.flat()));
+        });
+        compare(shown.full, wanted());
+        lit.volume.setWeights({sky: 0.25});
+        compare(shown.dimmed, wanted());
+        lit.volume.setWeights({sky: 1});
+        // In space, cells of which all are tetrahedra: Euler's formula for balls, V - E + F - C = 1.
+        const {cells, info: {innerCellCount}} = lit.volume.data;
+        const outerFaces = cells.length / 8 - innerCellCount;
+        const faces = (4 * innerCellCount + outerFaces) / 2;
+        expect(shown.edges).toBe(lit.volume.probeCount + faces - innerCellCount - 1);
+        expect(shown.lines).toBe(shown.edges);
+        expect(shown.after).toEqual(shown.before);
     });
 });

@@ -12,6 +12,7 @@ export type {ErrorCode} from './error.js';
 export type {LayerWeights} from './layers.js';
 export {lightmapIrradiance, readLightmaps} from './lightmaps.js';
 export type {LightmapLayer, LightmapMesh, LightmapRectangle, Lightmaps} from './lightmaps.js';
+export type {ProbeHealth} from './probe_health.js';
 export type {Outside, QueryOptions} from './query_options.js';
 export {levelRoughness, readReflections} from './reflections.js';
 export type {ReflectionLayer, ReflectionProbe, Reflections} from './reflections.js';

@@ -4,6 +4,7 @@ import {answerBatch, BatchOptions, BatchOutputs, locateOffSurface} from './batch
 import {blendIrradiance, blendOcclusion, Precision, ProbeLight, readProbeLight} from './blend.js';
 import {argumentError} from './error.js';
 import {changedWeights, LayerWeights, recombine} from './layers.js';
+import {ProbeHealth, readHealth} from './probe_health.js';
 import {Query} from './query.js';
 import {QueryOptions, readSettings} from './query_options.js';
 import {FileData, SectionFile} from './section_file.js';
@@ -90,6 +91,11 @@ export class Volume {
 
     get lights(): BakedLight[] {
         return readBakedLights(this.data);
+    }
+
+    /** One a probe; empty if it is not known: the volume was not baked. */
+    get health(): ProbeHealth[] {
+        return readHealth(this.data);
     }
 
     /** World position of a probe. */

@@ -3,7 +3,7 @@
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
+import {dirname, join} from 'node:path';
 import {gzipSync} from 'node:zlib';
 
 import {build, Rollup, transformWithEsbuild} from 'vite';
@@ -11,13 +11,14 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 const kRoot = join(__dirname, '..');
 
-test('the bundle of the core has at most 30 kB gzipped', async () => {
+test('the bundle of the core has at most 30 kB gzipped, and no code of engines', async () => {
     const built = await build({
         root: kRoot, configFile: false, logLevel: 'error',
         build: {write: false, target: 'es2022', lib: {entry: join(kRoot, 'src/index.ts'), formats: ['es'], fileName: 'index'}},
     }) as Rollup.RollupOutput[];
     const chunks = built[0].output;
     expect(chunks).toHaveLength(1);
+    expect((chunks[0] as Rollup.OutputChunk).moduleIds.filter(name => !name.startsWith(join(kRoot, 'src')))).toEqual([]);
     // Vite keeps the blanks of libraries.
     const {code} = await transformWithEsbuild((chunks[0] as Rollup.OutputChunk).code, 'index.js', {minify: true});
     expect(gzipSync(code, {level: 9}).length).toBeLessThanOrEqual(30_000);
@@ -43,6 +44,19 @@ describe('the packed package, installed into an empty project', () => {
         const files = readdirSync(join(folder, 'node_modules/tetralight')).sort();
         expect(files).toEqual(['LICENSE', 'README.md', 'dist', 'package.json']);
         expect(readdirSync(join(folder, 'node_modules')).filter(name => !name.startsWith('.'))).toEqual(['tetralight']);
+    });
+
+    test('imports engines by the entries that are named after them alone', () => {
+        const dist = join(folder, 'node_modules/tetralight/dist');
+        const names = readdirSync(dist, {recursive: true, encoding: 'utf8'}).filter(name => name.endsWith('.js'));
+        const imports = names.flatMap(name => {
+            const code = readFileSync(join(dist, name), 'utf8');
+            return [...code.matchAll(/ from ['"]([^.'"][^'"]*)['"]/g)].map(([, from]) => `${dirname(name)}: ${from}`);
+        });
+        expect(imports).toContain('three: three');
+        expect(imports.filter(each => !/^(three: three|babylon: @babylonjs\/core)(\/|$)/.test(each))).toEqual([]);
+        expect(names).toEqual(expect.arrayContaining(['playcanvas/index.js', 'filament/index.js', 'babylon/index.js']));
+        expect(names.filter(name => /gallery|test/.test(name))).toEqual([]);
     });
 
     test('is imported by Node', () => {

@@ -197,5 +197,28 @@ TEST(ImageBasedLightGlb, ThereHasToBeAScene) {
     EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
 }
 
+TEST(ImageBasedLightGlb, NeedsNoScene) {
+    const auto bytes = make_image_based_light_glb(two_levels());
+    ASSERT_TRUE(bytes);
+    const TempFolder folder;
+    const auto scene = read_gltf(folder.write(
+        "light.glb", std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())));
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_TRUE(scene->instances.empty());
+}
+
+/// Babylon.js' world has x mirrored, and images start with the last row.
+TEST(ImageBasedLightGlb, DirectionsAreThoseOfBabylon) {
+    const auto expect = [](uint32_t face, uint32_t x, uint32_t y, const glm::vec3& direction) {
+        const glm::vec3 d = image_based_light_direction(face, x, y, 2);
+        EXPECT_LT(glm::distance(d, glm::normalize(direction)), 1e-6f) << face;
+    };
+    // Texel (0, 0) of face +X looks to (1, ½, ½) there: (-1, ½, ½) here, in row 1 of the image.
+    expect(0, 0, 1, {-1, 0.5, 0.5});
+    expect(1, 0, 1, {1, 0.5, -0.5});
+    expect(2, 0, 1, {0.5, 1, -0.5});
+    expect(4, 1, 0, {-0.5, -0.5, 1});
+}
+
 }  // namespace
 }  // namespace tetralight

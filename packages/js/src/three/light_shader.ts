@@ -11,12 +11,9 @@ export function isLit(material: three.Material): boolean {
 /** Where the seven vec4 of `packSh` come from: a uniform of the material, or a texture with those of all instances. */
 export type LightSource = {sh: Float32Array} | {texture: three.DataTexture};
 
-const kVectors = [0, 1, 2, 3, 4, 5, 6];
-
-/** Irradiance on a normal in view space. `sh` names one of the seven vectors. */
-const irradianceFunction = (sh: (i: number) => string) => `
-vec3 tetralightIrradiance(vec3 viewNormal) {
-    vec3 n = normalize((vec4(viewNormal, 0.0) * viewMatrix).xyz);
+/** Irradiance on a world normal. `sh` names one of the seven vectors. */
+export const irradianceFunction = (sh: (i: number) => string) => `
+vec3 tetralightIrradiance(vec3 n) {
     vec4 linear = vec4(n, 1.0);
     vec4 quadratic = vec4(n.x * n.y, n.y * n.z, n.z * n.z, n.z * n.x);
     vec3 sum = vec3(dot(${sh(0)}, linear) + dot(${sh(3)}, quadratic), dot(${sh(1)}, linear) + dot(${sh(4)}, quadratic),
@@ -27,23 +24,24 @@ vec3 tetralightIrradiance(vec3 viewNormal) {
 
 const kFromUniform = `uniform vec4 tetralightSh[7];\n${irradianceFunction(i => `tetralightSh[${i}]`)}`;
 
-const kVaryings = kVectors.map(i => `flat varying vec4 vTetralightSh${i};\n`).join('');
-const kFromVaryings = kVaryings + irradianceFunction(i => `vTetralightSh${i}`);
-
-// The texels of an instance follow each other in one row.
-const kReadTexture = `uniform highp sampler2D tetralightTexture;
-vec4 tetralightTexel(int i) {
+/** Where the texels of the instance begin that a vertex shader draws. They follow each other in one row. */
+export const kFindTexels = `uniform highp sampler2D tetralightTexture;
+ivec2 tetralightPlace() {
     #ifdef USE_BATCHING
         int instance = int(getIndirectIndex(gl_DrawID));
     #else
         int instance = gl_InstanceID;
     #endif
-    int place = 7 * instance + i;
+    int place = 7 * instance;
     int width = textureSize(tetralightTexture, 0).x;
-    return texelFetch(tetralightTexture, ivec2(place % width, place / width), 0);
+    return ivec2(place % width, place / width);
 }
 `;
-const kCopyTexels = kVectors.map(i => `    vTetralightSh${i} = tetralightTexel(${i});\n`).join('');
+
+// One varying and seven reads a pixel are faster than seven reads a vertex and as many varyings.
+const kVarying = 'flat varying ivec2 vTetralightPlace;\n';
+const kFromTexture = `uniform highp sampler2D tetralightTexture;\n${kVarying}` +
+    irradianceFunction(i => `texelFetch(tetralightTexture, vTetralightPlace + ivec2(${i}, 0), 0)`);
 
 /** A copy of a material that is lit from `source`, too. What it did before it compiled stays. */
 export function litCopy(material: three.Material, source: LightSource): three.Material {
@@ -61,10 +59,11 @@ export function litCopy(material: three.Material, source: LightSource): three.Ma
 
 function patch(shader: {vertexShader: string; fragmentShader: string}, kind: 'uniform' | 'texture'): void {
     shader.fragmentShader = shader.fragmentShader
-        .replace('void main() {', `${kind === 'uniform' ? kFromUniform : kFromVaryings}void main() {`)
+        .replace('void main() {', `${kind === 'uniform' ? kFromUniform : kFromTexture}void main() {`)
         .replace('#include <lights_fragment_begin>',
-                 '#include <lights_fragment_begin>\n    irradiance += tetralightIrradiance(geometryNormal);');
+                 `#include <lights_fragment_begin>
+    irradiance += tetralightIrradiance(normalize((vec4(geometryNormal, 0.0) * viewMatrix).xyz));`);
     if (kind === 'uniform') return;
     shader.vertexShader = shader.vertexShader
-        .replace('void main() {', `${kVaryings}${kReadTexture}void main() {\n${kCopyTexels}`);
+        .replace('void main() {', `${kVarying}${kFindTexels}void main() {\n    vTetralightPlace = tetralightPlace();\n`);
 }

@@ -12,20 +12,21 @@ import {kPacked, packSh} from '../sh.js';
 import type {Volume} from '../volume.js';
 import {centerOfBounds} from './bounds.js';
 import {InstanceLight, InstancesMesh} from './instances.js';
-import {isLit, litCopy} from './light_shader.js';
+import {isLit, LightSource, litCopy} from './light_shader.js';
 
 /** Options of all queries of the objects. */
 export type ProbeVolumeOptions = Pick<QueryOptions, 'outside' | 'fadeDistance' | 'walls' | 'radius' | 'renderingLayers'>;
 
-type Mesh = three.Mesh<three.BufferGeometry, three.Material | three.Material[]>;
+export type Mesh = three.Mesh<three.BufferGeometry, three.Material | three.Material[]>;
 
 /** What a mesh had before it was lit. */
 interface Before {
     material: three.Material | three.Material[];
 }
 
-/** A mesh that follows the light at the center of its bounds. */
+/** A mesh with the light at its anchor, or at the center of its bounds. */
 interface LitMesh extends Before {
+    anchor: three.Object3D | undefined;
     light: Float32Array;
     position: three.Vector3;
     hint: number;
@@ -43,14 +44,15 @@ export class ProbeVolume {
 
     /**
      * Lights all meshes of an object. Each gets its own copies of its materials, which `remove` takes away: change
-     * `mesh.material`. Basic and other materials without light stay as they are.
+     * `mesh.material`. Basic and other materials without light stay as they are. With an anchor, such as a bone or the
+     * object itself, all meshes have the light at its position, so that the parts of a character match; instances have their own.
      */
-    add(object: three.Object3D): void {
+    add(object: three.Object3D, anchor?: three.Object3D): void {
         object.traverse(child => {
             const mesh = child as Mesh;
             if (!mesh.isMesh || this.meshes.has(mesh)) return;
             if ('isInstancedMesh' in mesh || 'isBatchedMesh' in mesh) this.addInstances(child as InstancesMesh);
-            else this.addMesh(mesh);
+            else this.addMesh(mesh, anchor);
         });
     }
 
@@ -72,7 +74,7 @@ export class ProbeVolume {
     /** Finds the light of everything that moved. World matrices must be those of the frame. */
     update(): void {
         for (const [mesh, lit] of this.meshes) {
-            const position = centerOf(mesh);
+            const position = lit.anchor ? kPosition.setFromMatrixPosition(lit.anchor.matrixWorld) : centerOf(mesh);
             if (!position.equals(lit.position)) this.lightMesh(lit, position);
         }
         for (const {light} of this.instances.values()) light.update(this.volume, this.options);
@@ -85,17 +87,28 @@ export class ProbeVolume {
         this.update();
     }
 
-    private addMesh(mesh: Mesh): void {
+    /** A copy of a material of a mesh that is lit from `source`, too. Materials without light stay as they are. */
+    protected litMaterial(material: three.Material, source: LightSource, _mesh: Mesh): three.Material {
+        return isLit(material) ? litCopy(material, source) : material;
+    }
+
+    private copies(mesh: Mesh, source: LightSource): three.Material | three.Material[] {
+        const lit = [mesh.material].flat().map(material => this.litMaterial(material, source, mesh));
+        return Array.isArray(mesh.material) ? lit : lit[0];
+    }
+
+    private addMesh(mesh: Mesh, anchor: three.Object3D | undefined): void {
         const light = new Float32Array(kPacked);
-        this.meshes.set(mesh, {material: mesh.material, light, hint: kNone, position: new three.Vector3(NaN, NaN, NaN)});
-        mesh.material = copies(mesh.material, material => litCopy(material, {sh: light}));
+        const position = new three.Vector3(NaN, NaN, NaN);
+        this.meshes.set(mesh, {material: mesh.material, anchor, light, hint: kNone, position});
+        mesh.material = this.copies(mesh, {sh: light});
     }
 
     private addInstances(mesh: InstancesMesh): void {
         if (this.instances.has(mesh)) return;
         const light = new InstanceLight(mesh);
         this.instances.set(mesh, {material: mesh.material, light});
-        mesh.material = copies(mesh.material, material => litCopy(material, {texture: light.texture})) as three.Material;
+        mesh.material = this.copies(mesh, {texture: light.texture}) as three.Material;
     }
 
     private lightMesh(lit: LitMesh, position: three.Vector3): void {
@@ -106,11 +119,8 @@ export class ProbeVolume {
     }
 }
 
-function copies(material: three.Material | three.Material[], copy: (material: three.Material) => three.Material) {
-    const lit = [material].flat().map(each => isLit(each) ? copy(each) : each);
-    return Array.isArray(material) ? lit : lit[0];
-}
+const kPosition = new three.Vector3();
 
 function centerOf(mesh: Mesh): three.Vector3 {
-    return centerOfBounds(mesh.geometry).clone().applyMatrix4(mesh.matrixWorld);
+    return kPosition.copy(centerOfBounds(mesh.geometry)).applyMatrix4(mesh.matrixWorld);
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A page in Chromium with software rendering, which runs one file of this folder.
+import {existsSync, readFileSync} from 'node:fs';
+import {join} from 'node:path';
+
+import {Browser, chromium, Page} from 'playwright-core';
+import {build, Rollup} from 'vite';
+
+import {kCommand, kCourtyard} from '../tests/command.js';
+
+export const kRoot = join(__dirname, '..');
+const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+/** Whether the tests of engines can run. */
+export const kCanRun = kCommand !== '' && kCourtyard !== '' && existsSync(kChromium);
+
+export function launch(): Promise<Browser> {
+    return chromium.launch({executablePath: kChromium, args: [
+        '--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+        '--ignore-gpu-blocklist']});
+}
+
+/** A page with a canvas of 8 × 8 pixels that has run the bundle of `entry`. Other addresses serve `files`. */
+export async function openPage(browser: Browser, entry: string, files: Record<string, string> = {}): Promise<Page> {
+    const built = await build({
+        root: kRoot, configFile: false, logLevel: 'error', define: {'process.env.NODE_ENV': '"production"'},
+        build: {write: false, target: 'es2022',
+                lib: {entry: join(__dirname, entry), formats: ['iife'], name: 'unused', fileName: 'page'}},
+    }) as Rollup.RollupOutput[];
+    const page = await (await browser.newContext()).newPage();
+    const scripts = Object.keys(files).filter(name => name.endsWith('.js')).map(name => `<script src="/${name}"></script>`);
+    const html = `<!doctype html><canvas width="8" height="8" style="width: 8px; height: 8px"></canvas>${scripts.join('')}`;
+    await page.route('http://page.test/**', route => {
+        const name = new URL(route.request().url()).pathname.slice(1);
+        if (name === '') return route.fulfill({contentType: 'text/html', body: html});
+        if (!(name in files)) return route.fulfill({status: 404});
+        const contentType = name.endsWith('.wasm') ? 'application/wasm' : 'text/javascript';
+        return route.fulfill({contentType, body: readFileSync(files[name])});
+    });
+    page.on('pageerror', error => console.error(error));
+    await page.goto('http://page.test/');
+    await page.addScriptTag({content: (built[0].output[0] as Rollup.OutputChunk).code});
+    return page;
+}
