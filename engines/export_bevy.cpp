@@ -21,7 +21,7 @@ namespace tetralight::detail {
 namespace {
 
 /// The largest 3D texture of every device (WebGPU, limit maxTextureDimension3D).
-constexpr uint32_t kMostTexels = 2048;
+constexpr uint32_t kMostTextureTexels = 2048;
 
 /// Irradiance of surfaces that face along the axes x, y, z, and against them.
 using AmbientCube = std::array<std::array<glm::vec3, 3>, 2>;
@@ -67,7 +67,8 @@ std::vector<glm::vec3> texels_of(const SampledGrid& grid) {
     return texels;
 }
 
-std::string texture(const SampledGrid& grid, const std::vector<glm::vec3>& texels, float scale) {
+std::string texture_file(const SampledGrid& grid, const std::vector<glm::vec3>& texels,
+                         float scale) {
     std::vector<std::array<uint16_t, 4>> halves;
     halves.reserve(texels.size());
     for (const glm::vec3& texel : texels) {
@@ -81,18 +82,19 @@ std::string texture(const SampledGrid& grid, const std::vector<glm::vec3>& texel
 }
 
 /// A number of RON that nothing takes for an integer.
-std::string number(auto value) {
+std::string ron_number(auto value) {
     std::string text = str_cat(value);
     if (text.find_first_of(".e") == std::string::npos) text += ".0";
     return text;
 }
 
-std::string triple(const glm::dvec3& v) {
-    return str_cat('(', number(v.x), ", ", number(v.y), ", ", number(v.z), ')');
+std::string ron_triple(const glm::dvec3& v) {
+    return str_cat('(', ron_number(v.x), ", ", ron_number(v.y), ", ", ron_number(v.z), ')');
 }
 
 /// A world as `WorldAssetLoader` of Bevy reads it.
-std::string world(const Box<glm::dvec3>& box, const std::string& texture_name, float intensity) {
+std::string world_file(const Box<glm::dvec3>& box, const std::string& texture_name,
+                       float intensity) {
     return str_cat(R"((
   resources: {},
   entities: {
@@ -102,7 +104,7 @@ std::string world(const Box<glm::dvec3>& box, const std::string& texture_name, f
           voxels: Path()",
                    quoted_for_ron(texture_name), R"(),
           intensity: )",
-                   number(intensity), R"(,
+                   ron_number(intensity), R"(,
           affects_lightmapped_meshes: true,
         ),
         "bevy_light::probe::LightProbe": (
@@ -110,10 +112,10 @@ std::string world(const Box<glm::dvec3>& box, const std::string& texture_name, f
         ),
         "bevy_transform::components::transform::Transform": (
           translation: )",
-                   triple((box.min + box.max) * 0.5), R"(,
+                   ron_triple((box.min + box.max) * 0.5), R"(,
           rotation: (0.0, 0.0, 0.0, 1.0),
           scale: )",
-                   triple(box.size()), R"(,
+                   ron_triple(box.size()), R"(,
         ),
       },
     ),
@@ -131,11 +133,11 @@ std::string asset_name(std::string name) {
 
 Status check_resolution(const SampledGrid& grid, const ExportSettings& settings) {
     const glm::uvec3 size = grid.resolution * glm::uvec3(1, 2, 3);
-    if (std::max({size.x, size.y, size.z}) <= kMostTexels) return Ok{};
+    if (std::max({size.x, size.y, size.z}) <= kMostTextureTexels) return Ok{};
     return Error{ErrorCode::InvalidArgument, settings.resolution[0] > 0 ? "resolution" : "spacing",
                  "",
                  str_cat("gives a texture of ", size.x, " x ", size.y, " x ", size.z,
-                         " texels; up to ", kMostTexels, " along each axis are possible")};
+                         " texels; up to ", kMostTextureTexels, " along each axis are possible")};
 }
 
 }  // namespace
@@ -153,8 +155,8 @@ Result<ExportedVolume> export_bevy(const ProbeVolumeView& volume, const ExportSe
     const float scale = half_scale(largest);
     const std::string texture_name = asset_name(settings.name) + ".ktx2";
     return ExportedVolume{
-        {{settings.name + ".scn.ron", world(grid->bounds, texture_name, scale)},
-         {texture_name, texture(*grid, texels, scale)}},
+        {{settings.name + ".scn.ron", world_file(grid->bounds, texture_name, scale)},
+         {texture_name, texture_file(*grid, texels, scale)}},
         {},
         measure_difference(volume, random_places(volume, kDifferencePlaces, grid->bounds),
                            [&](const glm::dvec3& position) -> IrradianceByNormal {

@@ -92,7 +92,7 @@ class GlbWriter {
     std::string data_;
 };
 
-Json vector(const glm::dvec3& v) {
+Json vector_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
@@ -136,7 +136,7 @@ Json walls_json(const ProbeVolumeView& volume, GlbWriter& file) {
             {"splits", file.add(kShorts, std::span<const uint16_t>(splits))}};
 }
 
-void add_cells(const ProbeVolumeView& volume, GlbWriter& file, Json& json) {
+void add_volume_cells(const ProbeVolumeView& volume, GlbWriter& file, Json& json) {
     std::vector<std::array<uint32_t, 4>> vertices;
     std::vector<std::array<uint32_t, 4>> neighbors;
     for (const Cell& cell : volume.cells) {
@@ -155,10 +155,10 @@ Json volume_json(const ProbeVolumeView& volume, const std::vector<IrradianceSh>&
                  std::optional<int> positions, GlbWriter& file) {
     Json json{{"version", 1},
               {"shape", shape_name(volume.info.dimension)},
-              {"origin", vector(volume.info.world_origin)},
+              {"origin", vector_json(volume.info.world_origin)},
               {"extent", volume.info.extent},
               {"innerCellCount", volume.info.inner_cell_count}};
-    if (volume.info.axis != glm::dvec3(0.0)) json["axis"] = vector(volume.info.axis);
+    if (volume.info.axis != glm::dvec3(0.0)) json["axis"] = vector_json(volume.info.axis);
     for (const glm::vec3& c : volume.info.ambient.coefficients) {
         for (int channel = 0; channel < 3; ++channel) json["ambient"].push_back(c[channel]);
     }
@@ -169,13 +169,13 @@ Json volume_json(const ProbeVolumeView& volume, const std::vector<IrradianceSh>&
     file.add_to(json, "occlusion", kVectors4, std::span(occlusion));
     file.add_to(json, "validity", kFloats, volume.validity);
     file.add_to(json, "renderingLayers", kNumbers, volume.rendering_layers);
-    add_cells(volume, file, json);
+    add_volume_cells(volume, file, json);
     return json;
 }
 
 /// A node with the probes of one group as points.
-void add_points(const std::string& name, const Json& attributes,
-                const std::vector<uint32_t>& probes, GlbWriter& file) {
+void add_group_points(const std::string& name, const Json& attributes,
+                      const std::vector<uint32_t>& probes, GlbWriter& file) {
     if (probes.empty()) return;
     const Json primitive{{"attributes", attributes},
                          {"indices", file.add(kPointIndices, std::span<const uint32_t>(probes))},
@@ -208,7 +208,8 @@ int add_all_points(const ProbeVolumeView& volume, const std::vector<IrradianceSh
         groups[std::min<size_t>(group_of[probe], names.size())].push_back(probe);
     }
     for (size_t i = 0; i < groups.size(); ++i) {
-        add_points(i < names.size() ? std::string(names[i]) : "", attributes, groups[i], file);
+        add_group_points(i < names.size() ? std::string(names[i]) : "", attributes, groups[i],
+                         file);
     }
     return positions;
 }
@@ -221,7 +222,7 @@ Result<ExportedVolume> export_gltf(const ProbeVolumeView& volume, const ExportSe
     file.json["scene"] = 0;
     file.json["scenes"] = Json::array({{{"nodes", {0}}}});
     file.json["nodes"] = Json::array({{{"name", settings.name},
-                                       {"translation", vector(volume.info.world_origin)},
+                                       {"translation", vector_json(volume.info.world_origin)},
                                        {"extensions", {{kExtension, {{"volume", 0}}}}}}});
     const auto light = probe_light(volume);
     std::optional<int> positions;

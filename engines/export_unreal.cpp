@@ -98,15 +98,15 @@ Result<std::string> sheet_image(const std::vector<glm::vec4>& texels, uint32_t w
     return encode_layered_exr(image, ExrPrecision::Half);
 }
 
-std::string vector(const auto& v) {
+std::string hlsl_vector(const auto& v) {
     return str_cat("float3(", v.x, ", ", v.y, ", ", v.z, ')');
 }
 
 /// The code of a Custom node.
 std::string material_code(const SampledGrid& grid, float scale) {
-    return str_cat("const float3 BoxMin = ", vector(grid.bounds.min),
-                   ";\nconst float3 BoxSize = ", vector(grid.bounds.size()),
-                   ";\nconst float3 Cells = ", vector(grid.resolution),
+    return str_cat("const float3 BoxMin = ", hlsl_vector(grid.bounds.min),
+                   ";\nconst float3 BoxSize = ", hlsl_vector(grid.bounds.size()),
+                   ";\nconst float3 Cells = ", hlsl_vector(grid.resolution),
                    ";\nconst float Scale = ", scale, R"(;
 // From centimetres with Z up to metres with Y up.
 float3 P = Position.xzy * 0.01;
@@ -128,7 +128,7 @@ return max(Light * Scale, 0);
 }
 
 /// How the editor makes a material function of it.
-std::string page(const SampledGrid& grid, const std::string& sheet_name, float scale) {
+std::string material_page(const SampledGrid& grid, const std::string& sheet_name, float scale) {
     return str_cat("# Probe light in Unreal Engine\n\n1. Import ", quoted_for_json(sheet_name), R"(.
    In its settings: Compression Settings `HDR (RGBA16F)`, sRGB off, Mip Gen Settings `NoMipmaps`.
 2. Create a volume texture from it. Source 2D Texture: the sheet; Tile Size X )",
@@ -170,7 +170,7 @@ Result<ExportedVolume> export_unreal(const ProbeVolumeView& volume,
     if (!image) return image.error();
     const std::string sheet_name = settings.name + ".exr";
     return ExportedVolume{
-        {{settings.name + ".md", page(*grid, sheet_name, scale)}, {sheet_name, *image}},
+        {{settings.name + ".md", material_page(*grid, sheet_name, scale)}, {sheet_name, *image}},
         {},
         measure_difference(volume, *grid)};
 }

@@ -75,7 +75,9 @@ TEST(ExportGodot, HoldsArraysOfOneLength) {
     EXPECT_EQ(godot.baked_exposure, "1.0,");
     for (size_t node = 0; node < godot.bsp.size() / 6; ++node) {
         for (const double child : {godot.bsp[6 * node + 4], godot.bsp[6 * node + 5]}) {
-            if (child >= 0.0) EXPECT_GT(child, static_cast<double>(node));
+            if (child >= 0.0) {
+                EXPECT_GT(child, static_cast<double>(node));
+            }
         }
     }
 }
