@@ -189,7 +189,7 @@ TEST_F(ExportVolume, FilesForBevyAndUnrealNameEachOther) {
 
 /// A .glb may be a scene with lightmaps too: the format has to be named.
 TEST_F(ExportVolume, GlbIsAScene) {
-    EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", "v.glb"}), "--as"));
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
     const Json json = run_json({"export", "v.probes", "--as", "gltf", "-o", "v.glb"});
     EXPECT_EQ(json["files"].size(), 1u);
     const auto scene = read_gltf(path("v.glb"));
