@@ -42,10 +42,12 @@ void check_settings(const Values& values, const ExportTarget& target) {
     }
 }
 
-ExportSettings export_settings(const Values& values) {
+/// Precondition: the output is "-" or ends with the extension of the target.
+ExportSettings export_settings(const Values& values, const ExportTarget& target) {
     ExportSettings settings;
-    const std::string output = values.text("output");
-    if (output != "-") settings.name = fs::path(output).stem().string();
+    const std::string file = fs::path(values.text("output")).filename().string();
+    const size_t name_size = file.size() - std::string_view(target.extension).size();
+    if (file != "-" && name_size > 0) settings.name = file.substr(0, name_size);
     if (values.is_given("bounds")) {
         const auto b = values.numbers("bounds");
         settings.bounds = Box<glm::dvec3>{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
@@ -180,13 +182,13 @@ struct VolumeExport {
 
 const ExportTarget* chosen_export_target(const Values& values) {
     if (values.is_given("as")) return find_export_target(values.text("as"));
-    const std::string extension = fs::path(values.text("output")).extension().string();
+    const std::string output = values.text("output");
     const auto has_extension = [&](const ExportTarget& target) {
-        return target.extension == extension;
+        return output.ends_with(target.extension);
     };
     // Lightmaps and reflection probes have these, too.
     for (const char* shared : {".exr", ".ktx2", ".png", ".glb"}) {
-        if (extension == shared) return nullptr;
+        if (output.ends_with(shared)) return nullptr;
     }
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;
@@ -196,7 +198,7 @@ const ExportTarget* chosen_export_target(const Values& values) {
 Status export_volume(const Values& values, const ExportTarget& target) {
     check_settings(values, target);
     return VolumeExport{target, values.text("volume"), values.text("output"),
-                        export_settings(values), CommonOptions(values)}
+                        export_settings(values, target), CommonOptions(values)}
         .run();
 }
 

@@ -36,10 +36,22 @@ std::array<glm::vec3, kNormalCount> normals() {
              {-d, -d, -d}}};
 }
 
-double largest_component(const IrradianceSh& light) {
+using Irradiances = std::array<glm::vec3, kNormalCount>;
+
+Irradiances at_normals(const IrradianceByNormal& light) {
+    Irradiances irradiances;
+    std::ranges::transform(normals(), irradiances.begin(), light);
+    return irradiances;
+}
+
+Irradiances at_normals(const IrradianceSh& light) {
+    return at_normals([&](const glm::vec3& normal) { return evaluate_irradiance(light, normal); });
+}
+
+double largest_difference(const Irradiances& a, const Irradiances& b) {
     double largest = 0.0;
-    for (const glm::vec3& normal : normals()) {
-        const glm::vec3 e = glm::abs(evaluate_irradiance(light, normal));
+    for (size_t i = 0; i < kNormalCount; ++i) {
+        const glm::vec3 e = glm::abs(a[i] - b[i]);
         largest = std::max<double>(largest, std::max({e.x, e.y, e.z}));
     }
     return largest;
@@ -123,24 +135,34 @@ IrradianceSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position,
 double largest_irradiance(const ProbeVolumeView& volume) {
     double largest = 0.0;
     for (const IrradianceSh& light : volume.irradiance) {
-        largest = std::max(largest, largest_component(light));
+        largest = std::max(largest, largest_difference(at_normals(light), Irradiances{}));
     }
     return largest;
 }
 
 LightDifference measure_difference(const ProbeVolumeView& volume,
                                    const std::vector<glm::dvec3>& places, const LightAt& shown) {
+    return measure_difference(volume, places, [&](const glm::dvec3& place) -> IrradianceByNormal {
+        return [light = shown(place)](const glm::vec3& normal) {
+            return evaluate_irradiance(light, normal);
+        };
+    });
+}
+
+LightDifference measure_difference(const ProbeVolumeView& volume,
+                                   const std::vector<glm::dvec3>& places,
+                                   const IrradianceAt& shown) {
     LightDifference difference{static_cast<uint32_t>(places.size()), {}, {}};
     const double largest = largest_irradiance(volume);
     if (places.empty() || !(largest > 0.0)) return difference;
     std::vector<double> from_light;
     std::vector<double> without_walls;
     for (const glm::dvec3& place : places) {
-        const IrradianceSh light = shown(place);
+        const Irradiances light = at_normals(shown(place));
         for (const auto& [walls, values] : {std::pair{Walls::HideProbes, &from_light},
                                             std::pair{Walls::Ignore, &without_walls}}) {
-            const IrradianceSh expected = light_at(volume, place, walls);
-            values->push_back(largest_component(light + expected * -1.0f) / largest);
+            const Irradiances expected = at_normals(light_at(volume, place, walls));
+            values->push_back(largest_difference(light, expected) / largest);
         }
     }
     difference.from_light = quantiles(std::move(from_light));

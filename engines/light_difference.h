@@ -39,6 +39,12 @@ struct LightDifference {
 /// What an engine shows at a world position.
 using LightAt = std::function<IrradianceSh(const glm::dvec3& position)>;
 
+/// Irradiance of a surface with a unit normal.
+using IrradianceByNormal = std::function<glm::vec3(const glm::vec3& normal)>;
+
+/// What an engine shows at a world position, if it shows something other than SH.
+using IrradianceAt = std::function<IrradianceByNormal(const glm::dvec3& position)>;
+
 /// World positions that are evenly random in the inner cells of a volume, and in the box if there
 /// is one: the same ones in each call. Fewer than `count`, or none, if few or no cells are in the
 /// box.
@@ -57,6 +63,9 @@ using LightAt = std::function<IrradianceSh(const glm::dvec3& position)>;
 [[nodiscard]] LightDifference measure_difference(const ProbeVolumeView& volume,
                                                  const std::vector<glm::dvec3>& places,
                                                  const LightAt& shown);
+[[nodiscard]] LightDifference measure_difference(const ProbeVolumeView& volume,
+                                                 const std::vector<glm::dvec3>& places,
+                                                 const IrradianceAt& shown);
 
 /// Places that a difference is measured at.
 inline constexpr uint32_t kDifferencePlaces = 10'000;

@@ -18,8 +18,9 @@ constexpr Setting kFiles[] = {
          "glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection probe as "
          "EXT_lights_image_based; preview = PNG images for looking at, with the rectangle of each "
          "object. The others are for probe volumes: docs/engines.md has what each keeps and loses",
-     .choices = "exr ktx2 png glb preview three-grid godot unity playcanvas filament babylon vtu "
-                "json csv blender",
+     .choices =
+         "exr ktx2 png glb preview three-grid bevy unreal godot unity playcanvas filament babylon "
+         "gltf vtu json csv blender",
      .without = "by the extension of the output"}};
 
 constexpr Setting kVolumeSettings[] = {

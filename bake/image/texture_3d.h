@@ -39,6 +39,10 @@ using TextureMetadata = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Status write_ktx2(const std::string& path, const Texture3dView& texture,
                                 const TextureMetadata& metadata);
 
+/// The bytes of the same file. Precondition: the texture has texels.
+[[nodiscard]] std::string encode_ktx2(const Texture3dView& texture,
+                                      const TextureMetadata& metadata);
+
 /// Writes a KTX 2.0 file of a 2D array texture, whose layers are the slices of `layers`. x and y
 /// point right and down. Otherwise as `write_ktx2`.
 [[nodiscard]] Status write_ktx2_array(const std::string& path, const Texture3dView& layers,

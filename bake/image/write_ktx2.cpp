@@ -43,9 +43,9 @@ Ktx2Header make_header(const Texture3dView& texture, Ktx2Kind kind, size_t metad
     return header;
 }
 
-Status write_ktx2_file(const std::string& path, const Texture3dView& texture, Ktx2Kind kind,
-                       const TextureMetadata& metadata) {
-    if (auto status = detail::check_texture(path, texture); !status) return status;
+/// All bytes of a file before its texels.
+std::string encode_head(const Texture3dView& texture, Ktx2Kind kind,
+                        const TextureMetadata& metadata) {
     const uint32_t bytes = detail::texel_bytes(texture.format);
     const Ktx2Descriptor descriptor = make_ktx2_descriptor(bytes);
     std::string pairs = encode_metadata(metadata, kind == Ktx2Kind::Volume ? "ruo" : "rd");
@@ -56,13 +56,26 @@ Status write_ktx2_file(const std::string& path, const Texture3dView& texture, Kt
     level.offset = (end + bytes - 1) / bytes * bytes;  // texels are aligned
     level.size = level.uncompressed_size = texture.texels.size();
     pairs.resize(pairs.size() + (level.offset - end));
-    const std::array parts{
-        std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(&level, 1)),
-        std::as_bytes(std::span(&descriptor, 1)), std::as_bytes(std::span(pairs)), texture.texels};
+    std::string head(reinterpret_cast<const char*>(&header), sizeof header);
+    head.append(reinterpret_cast<const char*>(&level), sizeof level);
+    head.append(reinterpret_cast<const char*>(&descriptor), sizeof descriptor);
+    return head + pairs;
+}
+
+Status write_ktx2_file(const std::string& path, const Texture3dView& texture, Ktx2Kind kind,
+                       const TextureMetadata& metadata) {
+    if (auto status = detail::check_texture(path, texture); !status) return status;
+    const std::string head = encode_head(texture, kind, metadata);
+    const std::array parts{std::as_bytes(std::span(head)), texture.texels};
     return write_file(path, parts);
 }
 
 }  // namespace
+
+std::string encode_ktx2(const Texture3dView& texture, const TextureMetadata& metadata) {
+    std::string file = encode_head(texture, Ktx2Kind::Volume, metadata);
+    return file.append(reinterpret_cast<const char*>(texture.texels.data()), texture.texels.size());
+}
 
 Status write_ktx2(const std::string& path, const Texture3dView& texture,
                   const TextureMetadata& metadata) {

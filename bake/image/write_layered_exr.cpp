@@ -66,4 +66,8 @@ Status write_layered_exr(const std::string& path, const LayeredImage& image,
     return detail::write_encoded_exr(path, [&] { return encode(image, precision); });
 }
 
+Result<std::string> encode_layered_exr(const LayeredImage& image, ExrPrecision precision) {
+    return detail::encoded_exr([&] { return encode(image, precision); });
+}
+
 }  // namespace tetralight

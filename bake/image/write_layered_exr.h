@@ -33,4 +33,8 @@ enum class ExrPrecision : uint8_t { Float, Half };
 [[nodiscard]] Status write_layered_exr(const std::string& path, const LayeredImage& image,
                                        ExrPrecision precision);
 
+/// The bytes of the same file. Returns invalid_argument if OpenEXR cannot encode the image.
+[[nodiscard]] Result<std::string> encode_layered_exr(const LayeredImage& image,
+                                                     ExrPrecision precision);
+
 }  // namespace tetralight

@@ -26,6 +26,18 @@ std::vector<IrradianceSh> probe_light(const ProbeVolumeView& volume) {
     return light;
 }
 
+std::vector<glm::vec4> probe_occlusion(const ProbeVolumeView& volume) {
+    std::vector<glm::vec4> occlusion(volume.occlusion.begin(), volume.occlusion.end());
+    if (!volume.irradiance.empty() || volume.compact.empty()) return occlusion;
+    occlusion.clear();
+    for (const CompactProbe& probe : volume.compact) {
+        const auto& halves = probe.occlusion;
+        occlusion.emplace_back(float_from_half(halves[0]), float_from_half(halves[1]),
+                               float_from_half(halves[2]), float_from_half(halves[3]));
+    }
+    return occlusion;
+}
+
 glm::dvec3 world_position(const ProbeVolumeView& volume, uint32_t probe) {
     return volume.info.world_origin + glm::dvec3(volume.positions[probe]);
 }

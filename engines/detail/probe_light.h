@@ -13,6 +13,9 @@ namespace tetralight::detail {
 /// volumes without light the ambient light.
 [[nodiscard]] std::vector<IrradianceSh> probe_light(const ProbeVolumeView& volume);
 
+/// Occlusion of each probe as queries read it; empty: 1.
+[[nodiscard]] std::vector<glm::vec4> probe_occlusion(const ProbeVolumeView& volume);
+
 /// World position of a probe.
 [[nodiscard]] glm::dvec3 world_position(const ProbeVolumeView& volume, uint32_t probe);
 

@@ -3,6 +3,7 @@
 
 #include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -169,6 +170,30 @@ TEST_F(ExportVolume, FilesBesideTheOutputAreNamedAfterIt) {
     EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "three-grid", "-o", "-"}),
                          "cannot write 2 files to stdout"));
     EXPECT_EQ(succeed({"export", "v.probes", "--as", "csv", "-o", "-"}).out.substr(0, 6), "x,y,z,");
+}
+
+TEST_F(ExportVolume, FilesForBevyAndUnrealNameEachOther) {
+    const Json bevy =
+        run_json({"export", "v.probes", "--resolution", "2,2,2", "-o", "court.scn.ron"});
+    EXPECT_EQ(bevy["as"], "bevy");
+    EXPECT_EQ(bevy["files"], (Json{"court.scn.ron", "court.ktx2"}));
+    EXPECT_TRUE(contains(read("court.scn.ron"), "Path(\"court.ktx2\")"));
+    const Json unreal = run_json(
+        {"export", "v.probes", "--as", "unreal", "--resolution", "2,2,2", "-o", "court.md"});
+    EXPECT_EQ(unreal["files"], (Json{"court.md", "court.exr"}));
+    EXPECT_TRUE(contains(read("court.md"), "Import \"court.exr\""));
+    EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "bevy", "--resolution", "1,1025,1",
+                               "-o", "court.scn.ron"}),
+                         "--resolution: gives a texture of 1 x 2050 x 3 texels"));
+}
+
+/// A .glb may be a scene with lightmaps too: the format has to be named.
+TEST_F(ExportVolume, GlbIsAScene) {
+    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
+    const Json json = run_json({"export", "v.probes", "--as", "gltf", "-o", "v.glb"});
+    EXPECT_EQ(json["files"].size(), 1u);
+    const auto scene = read_gltf(path("v.glb"));
+    EXPECT_TRUE(scene) << (scene ? "" : error_text(scene.error()));
 }
 
 TEST_F(ExportVolume, EnginesGetAScriptBesideTheirFile) {

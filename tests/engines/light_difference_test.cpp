@@ -80,6 +80,24 @@ TEST(LightDifference, IsRelativeToTheLargestIrradiance) {
     EXPECT_NEAR(difference.from_light.worst, 0.25, 1e-5);
 }
 
+/// A target that shows light by normals: that of the volume, but black from below.
+TEST(LightDifference, ComparesIrradianceByNormals) {
+    ProbeVolume volume = test::make_lit_volume(cube());
+    const IrradianceSh light = irradiance_from_radiance(constant_radiance(glm::vec3(1.0f)));
+    for (IrradianceSh& probe : volume.irradiance) probe = light;
+    const auto shown = [&](float below) {
+        return measure_difference(volume.view(), random_places(volume.view(), 10),
+                                  [&](const glm::dvec3&) -> IrradianceByNormal {
+                                      return [=](const glm::vec3& normal) {
+                                          return evaluate_irradiance(light, normal) *
+                                                 (normal.y < 0.0f ? below : 1.0f);
+                                      };
+                                  });
+    };
+    EXPECT_NEAR(shown(1.0f).from_light.worst, 0.0, 1e-6);
+    EXPECT_NEAR(shown(0.0f).from_light.median, 1.0, 1e-6);
+}
+
 TEST(LightDifference, OfAVolumeWithoutLightIsZero) {
     ProbeVolume volume = test::make_lit_volume(cube());
     volume.irradiance.clear();

@@ -25,16 +25,21 @@ std::string encode_exr(const Imf::Header& header, const Imf::FrameBuffer& source
     return stream.str();
 }
 
-Status write_encoded_exr(const std::string& path, const std::function<std::string()>& encode) {
+Result<std::string> encoded_exr(const std::function<std::string()>& encode) {
     try {
-        const std::string bytes = encode();
-        return write_file(path, std::as_bytes(std::span(bytes)));
+        return encode();
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
         return Error{ErrorCode::InvalidArgument,
-                     str_cat(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
+                     str_cat("cannot encode OpenEXR image (", exception.what(), ")")};
     }
+}
+
+Status write_encoded_exr(const std::string& path, const std::function<std::string()>& encode) {
+    const auto bytes = encoded_exr(encode);
+    if (!bytes) return bytes.error().in(path);
+    return write_file(path, std::as_bytes(std::span(*bytes)));
 }
 
 }  // namespace tetralight::detail
