@@ -5,10 +5,8 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 import {irradiance, kCoefficients} from '../src/index.js';
 import {makeRandom} from '../tests/random.js';
 import {kCanTest, LitSquares, TestPage} from './three_browser.js';
-import {compareSpheres, compareSquares} from './three_compare.js';
-import {compareWithRenderer, renderSpheres} from './three_renderer.js';
+import {testObjects} from './three_object_tests.js';
 import type {page as PageOfBrowser} from './three_page.js';
-import type {Kind} from './three_squares.js';
 
 type Window = {page: typeof PageOfBrowser};
 const kCount = 40;
@@ -25,27 +23,9 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         await opened?.close();
     });
 
-    test.each([
-        ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
-        ['instances', 'standard'], ['instances', 'phong'], ['batch', 'lambert'], ['skin', 'lambert'],
-    ] as ['meshes' | 'instances' | 'batch' | 'skin', Kind][])('%s of %s material have the light of probes', async (way, kind) => {
-        const colors = await opened.page.evaluate(([bytes, shade, given, all]) => {
-            const {page} = window as unknown as Window;
-            return page[shade](page.open(bytes), given, all);
-        }, [lit.base64, way, kind, lit.squares] as const);
-        compareSquares(lit, kind, colors);
-    });
-
-    test.each([
-        ['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true],
-    ] as [Kind, boolean][])('spheres of %s material have the light of probes in 8 bits (instances: %s)', async (kind, isInstanced) => {
-        const exposure = 1 / lit.brightest;
-        const spheres = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
-            const {page} = window as unknown as Window;
-            return page.spheres(page.open(bytes), given, all, factor, instanced);
-        }, [lit.base64, kind, lit.squares, exposure, isInstanced] as const);
-        compareSpheres(lit, kind, exposure, spheres);
-    });
+    testObjects(() => ({lit, page: opened.page}),
+                [['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true]],
+                [['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true], ['lambert', true]]);
 
     test('the grid of three.js has the light at the centers of its cells', async () => {
         // three.js reads it half a cell before the surface: squares lie half a cell behind the centers.
@@ -68,53 +48,6 @@ describe.skipIf(!kCanTest)('in three.js', () => {
         colors.forEach((color, i) => {
             color.forEach((value, k) => expect(Math.abs(value - wanted[i][k]), `cell ${i}`).toBeLessThan(2e-3 * largest));
         });
-    });
-
-    describe('spheres beside those of `tetralight render`', () => {
-        const exposure = () => 1 / lit.brightest;
-        let ours: number[][][];
-        beforeAll(() => { ours = renderSpheres(lit, exposure()); });
-
-        test.each([['standard', false], ['physical', false], ['lambert', false], ['phong', false], ['standard', true], ['lambert', true]] as [Kind, boolean][])(
-            'of %s material differ by no more than they should (instances: %s)', async (kind, isInstanced) => {
-                const theirs = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
-                    const {page} = window as unknown as Window;
-                    return page.views(page.open(bytes), given, all, factor, instanced);
-                }, [lit.base64, kind, lit.squares, exposure(), isInstanced] as const);
-                compareWithRenderer(kind, ours, theirs);
-            });
-    });
-
-    test('a character has the light at its anchor, where its bone is', async () => {
-        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
-            const {page} = window as unknown as Window;
-            return page.skin(page.open(bytes), 'lambert', all, true);
-        }, [lit.base64, lit.squares] as const));
-    });
-
-    test('instances that move take new light, and no others are looked for', async () => {
-        const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
-            const {page} = window as unknown as Window;
-            return page.moving(page.open(bytes), all);
-        }, [lit.base64, lit.squares] as const);
-        const all = 50 * lit.squares.length;
-        expect(counts).toEqual([all, lit.squares.length, all / 2, lit.squares.length]);
-        for (const each of colors) compareSquares(lit, 'lambert', each);
-    });
-
-    test('objects follow the weights of layers', async () => {
-        const square = lit.squares[0];
-        const [before, after] = await opened.page.evaluate(([bytes, given]) => {
-            const {page} = window as unknown as Window;
-            return page.dim(page.open(bytes), given, {sky: 0.25});
-        }, [lit.base64, square] as const);
-        const full = lit.radiance(square);
-        before.forEach((value, k) => expect(value).toBeCloseTo(full[k], 2));
-        lit.volume.setWeights({sky: 0.25});
-        const dimmed = lit.radiance(square);
-        lit.volume.setWeights({sky: 1});
-        after.forEach((value, k) => expect(value).toBeCloseTo(dimmed[k], 2));
-        expect(after[0]).toBeLessThan(before[0]);
     });
 
     test('the helper shows the light of probes and the edges of cells', async () => {

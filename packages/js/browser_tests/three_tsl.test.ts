@@ -5,9 +5,8 @@ import {join} from 'node:path';
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {bundle, kCanTest, LitSquares, TestPage} from './three_browser.js';
-import {compareSpheres, compareSquares} from './three_compare.js';
-import {compareWithRenderer, renderSpheres} from './three_renderer.js';
-import type {Kind} from './three_squares.js';
+import {compareSquares} from './three_compare.js';
+import {testObjects} from './three_object_tests.js';
 import type {page as PageOfBrowser} from './three_tsl_page.js';
 
 type Window = {page: typeof PageOfBrowser};
@@ -25,73 +24,8 @@ describe.skipIf(!kCanTest)('as nodes of three.js', () => {
         await opened?.close();
     });
 
-    test.each([
-        ['meshes', 'standard'], ['meshes', 'physical'], ['meshes', 'lambert'], ['meshes', 'phong'],
-        ['instances', 'standard'], ['instances', 'phong'], ['batch', 'lambert'], ['skin', 'lambert'],
-    ] as ['meshes' | 'instances' | 'batch' | 'skin', Kind][])('%s of %s node material have the light of probes', async (way, kind) => {
-        const colors = await opened.page.evaluate(([bytes, shade, given, all]) => {
-            const {page} = window as unknown as Window;
-            return page[shade](page.open(bytes), given, all);
-        }, [lit.base64, way, kind, lit.squares] as const);
-        compareSquares(lit, kind, colors);
-    });
-
-    test.each([['standard', false], ['standard', true], ['lambert', false]] as [Kind, boolean][])(
-        'spheres of %s node material have the light of probes in 8 bits (instances: %s)', async (kind, isInstanced) => {
-            const exposure = 1 / lit.brightest;
-            const spheres = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
-                const {page} = window as unknown as Window;
-                return page.spheres(page.open(bytes), given, all, factor, instanced);
-            }, [lit.base64, kind, lit.squares, exposure, isInstanced] as const);
-            compareSpheres(lit, kind, exposure, spheres);
-        });
-
-    describe('spheres beside those of `tetralight render`', () => {
-        const exposure = () => 1 / lit.brightest;
-        let ours: number[][][];
-        beforeAll(() => { ours = renderSpheres(lit, exposure()); });
-
-        test.each([['standard', false], ['lambert', false], ['lambert', true]] as [Kind, boolean][])(
-            'of %s material differ by no more than they should (instances: %s)', async (kind, isInstanced) => {
-                const theirs = await opened.page.evaluate(([bytes, given, all, factor, instanced]) => {
-                    const {page} = window as unknown as Window;
-                    return page.views(page.open(bytes), given, all, factor, instanced);
-                }, [lit.base64, kind, lit.squares, exposure(), isInstanced] as const);
-                compareWithRenderer(kind, ours, theirs);
-            });
-    });
-
-    test('a character has the light at its anchor, where its bone is', async () => {
-        compareSquares(lit, 'lambert', await opened.page.evaluate(([bytes, all]) => {
-            const {page} = window as unknown as Window;
-            return page.skin(page.open(bytes), 'lambert', all, true);
-        }, [lit.base64, lit.squares] as const));
-    });
-
-    test('instances that move take new light, and no others are looked for', async () => {
-        const {colors, counts} = await opened.page.evaluate(([bytes, all]) => {
-            const {page} = window as unknown as Window;
-            return page.moving(page.open(bytes), all);
-        }, [lit.base64, lit.squares] as const);
-        const all = 50 * lit.squares.length;
-        expect(counts).toEqual([all, lit.squares.length, all / 2, lit.squares.length]);
-        for (const each of colors) compareSquares(lit, 'lambert', each);
-    });
-
-    test('objects follow the weights of layers', async () => {
-        const square = lit.squares[0];
-        const [before, after] = await opened.page.evaluate(([bytes, given]) => {
-            const {page} = window as unknown as Window;
-            return page.dim(page.open(bytes), given, {sky: 0.25});
-        }, [lit.base64, square] as const);
-        const full = lit.radiance(square);
-        before.forEach((value, k) => expect(value).toBeCloseTo(full[k], 2));
-        lit.volume.setWeights({sky: 0.25});
-        const dimmed = lit.radiance(square);
-        lit.volume.setWeights({sky: 1});
-        after.forEach((value, k) => expect(value).toBeCloseTo(dimmed[k], 2));
-        expect(after[0]).toBeLessThan(before[0]);
-    });
+    testObjects(() => ({lit, page: opened.page}), [['standard', false], ['standard', true], ['lambert', false]],
+                [['standard', false], ['lambert', false], ['lambert', true]]);
 
     test('materials of WebGLRenderer become node materials', async () => {
         const colors = await opened.page.evaluate(([bytes, all]) => {
