@@ -45,3 +45,6 @@ export function readBakedLights({lights, lightNames, lightStates}: VolumeData): 
         };
     });
 }
+
+/** The factor of a light's bounces. */
+export const indirectMultiplier = ({lights}: VolumeData, light: number) => lights.getFloat32(light * kLightSize + 60, true);

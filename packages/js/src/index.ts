@@ -7,6 +7,7 @@
 export type {BakedLight} from './baked_lights.js';
 export type {BatchOptions, BatchOutputs} from './batch.js';
 export type {Precision} from './blend.js';
+export {constantSky, distantSun, kDistantCoefficients} from './distant_light.js';
 export {TetralightError} from './error.js';
 export type {ErrorCode} from './error.js';
 export type {LayerWeights} from './layers.js';

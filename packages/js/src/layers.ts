@@ -3,8 +3,8 @@
 import type {ProbeLight} from './blend.js';
 import {kLargestCoefficient} from './checks.js';
 import {argumentError, TetralightError} from './error.js';
+import type {LayeredLight} from './relight.js';
 import {kCoefficients} from './sh.js';
-import type {VolumeData} from './volume_data.js';
 
 /** Weights by layer: its full name, or the part after the colon. */
 export type LayerWeights = Readonly<Record<string, number>>;
@@ -38,8 +38,8 @@ function findLayer(names: readonly string[], name: string): number {
 }
 
 /** The light of a volume as Σ weight · layer. */
-export function recombine(volume: VolumeData, weights: readonly number[], occlusion: Float32Array): ProbeLight {
-    const {layers, layerIrradiance} = volume;
+export function recombine({layers, layerIrradiance}: LayeredLight, weights: readonly number[],
+                          occlusion: Float32Array): ProbeLight {
     if (layers.length === 0 || layerIrradiance.length === 0) {
         throw argumentError('weights', 'change nothing: the volume holds no layers (bake it with --layers)');
     }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-import {BakedLight, readBakedLights} from './baked_lights.js';
+import {BakedLight, indirectMultiplier, readBakedLights} from './baked_lights.js';
 import {answerBatch, BatchOptions, BatchOutputs, locateOffSurface} from './batch.js';
 import {blendIrradiance, blendOcclusion, Precision, ProbeLight, readProbeLight} from './blend.js';
+import {distantSun, unit} from './distant_light.js';
 import {argumentError} from './error.js';
 import {changedWeights, LayerWeights, recombine} from './layers.js';
 import {ProbeHealth, readHealth} from './probe_health.js';
 import {Query} from './query.js';
 import {QueryOptions, readSettings} from './query_options.js';
+import {checkDistantLight, LayeredLight, layerToRelight, movableSun, openIrradiance, relightLayer} from './relight.js';
 import {FileData, SectionFile} from './section_file.js';
 import {kCoefficients, Vector} from './sh.js';
 import {verify} from './verify.js';
@@ -59,12 +61,15 @@ export class Volume {
     private readonly query: Query;
     private probeLight: ProbeLight;
     private weights: number[];
+    private layered: LayeredLight;
+    private readonly movedLights = new Map<number, Partial<BakedLight>>();
 
     /** `data` must be verified. */
     constructor(readonly data: VolumeData, precision: Precision) {
         this.query = new Query(data);
         this.probeLight = readProbeLight(data, precision);
         this.weights = data.layers.map(layer => layer.weight);
+        this.layered = data;
     }
 
     get probeCount(): number {
@@ -90,7 +95,7 @@ export class Volume {
     }
 
     get lights(): BakedLight[] {
-        return readBakedLights(this.data);
+        return readBakedLights(this.data).map((light, i) => ({...light, ...this.movedLights.get(i)}));
     }
 
     /** One a probe; empty if it is not known: the volume was not baked. */
@@ -137,8 +142,40 @@ export class Volume {
      * was baked. Takes time in proportion to probes × layers.
      */
     setWeights(changes: LayerWeights): void {
-        const weights = changedWeights(this.data.layerNames, this.weights, changes);
-        this.probeLight = recombine(this.data, weights, this.probeLight.occlusion);
+        this.useLayers(this.layered, changedWeights(this.data.layerNames, this.weights, changes));
+    }
+
+    /**
+     * Replaces the sky by another one: 48 numbers, 16 RGB coefficients of the radiance from each direction (`constantSky`, or a
+     * projection of your own). The volume was baked with the layers sky and transfer. Weights stay.
+     */
+    relightSky(sky: Vector): void {
+        checkDistantLight('sky', sky);
+        const layer = layerToRelight(this.data, 'sky');
+        this.useLayers(relightLayer(this.data, this.layered, layer, sky, sky, openIrradiance(sky)), this.weights);
+    }
+
+    /**
+     * Moves the sun, so that it shines in `direction` with `irradiance`, RGB, on a surface that faces it. `lights` follow, and
+     * lose the channel of the sun: the occlusion of probes is that of the old direction. The volume was baked with the layers
+     * sun, which has one sun, and transfer.
+     */
+    relightSun(direction: Vector, irradiance: Vector): void {
+        const index = movableSun(this.data);
+        const sun = distantSun(direction, irradiance);
+        checkDistantLight('irradiance', sun);
+        const layer = layerToRelight(this.data, 'sun');
+        const bounced = sun.map(value => value * indirectMultiplier(this.data, index));
+        const isBaked = this.lights[index].mode === 'baked';
+        const {ambient} = this.layered.layers[layer];
+        this.useLayers(relightLayer(this.data, this.layered, layer, isBaked ? sun : undefined, bounced, ambient), this.weights);
+        this.movedLights.set(index, {direction: unit(direction), intensity: [irradiance[0], irradiance[1], irradiance[2]],
+                                     channel: undefined});
+    }
+
+    private useLayers(layered: LayeredLight, weights: number[]): void {
+        this.probeLight = recombine(layered, weights, this.probeLight.occlusion);
+        this.layered = layered;
         this.weights = weights;
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
-import {read, TetralightError, Volume} from '../src/index.js';
+import {constantSky, read, TetralightError, Volume} from '../src/index.js';
 import {Folder, kCommand, kCourtyard} from './command.js';
 import {largestOf, makePositions} from './random.js';
 
@@ -51,6 +51,61 @@ describe.skipIf(kCommand === '' || kCourtyard === '')('layers', () => {
         expect(code({lamp: 1})).toBe('not_found');
         for (const bad of [-1, NaN, Infinity, 1e38]) expect(code({sun: bad})).toBe('invalid_argument');
         expect(code({sun: 1})).toBe('none');
+    });
+
+    describe.each([['as baked', []], ['without ringing', ['--dering']], ['with a window', ['--dering', '--dering-window', 'hann']]])(
+        'with a transfer, %s', (_, options) => {
+            let baked: Uint8Array;
+            beforeAll(() => { baked = folder.bake(undefined, '--layers', 'sun,sky,emission,transfer', ...options); });
+
+            /** Compares with what the command makes of the same bake. */
+            const expectAsCommand = (volume: Volume, ...args: string[]) => {
+                folder.run('relight', 'volume.probes', '-o', 'relit.probes', ...args, '--quiet');
+                const relit = read(folder.bytes('relit.probes'));
+                const largest = largestOf(relit.irradiance);
+                volume.irradiance.forEach((value, i) =>
+                    expect(Math.abs(value - relit.irradiance[i])).toBeLessThan(1e-5 * largest));
+                volume.ambient.forEach((value, i) => expect(Math.abs(value - relit.ambient[i])).toBeLessThan(1e-5 * largest));
+                expect(volume.lights.map(({channel}) => channel)).toEqual(relit.lights.map(({channel}) => channel));
+                volume.lights.forEach(({direction, intensity}, i) => [...direction, ...intensity].forEach((value, k) =>
+                    expect(value).toBeCloseTo([...relit.lights[i].direction, ...relit.lights[i].intensity][k], 5)));
+            };
+
+            test('another sky gives the light of `tetralight relight`', () => {
+                const volume = read(baked);
+                volume.relightSky(constantSky([0.5, 2, 7]));
+                expectAsCommand(volume, '--sky', '0.5,2,7');
+                volume.setWeights({sky: 0.5, sun: 0});
+                expectAsCommand(volume, '--sky', '0.5,2,7', '--weights', 'sky=0.5,sun=0');
+            });
+
+            test('a sun that moves gives the light of `tetralight relight`', () => {
+                const volume = read(baked);
+                volume.relightSun([0.3, -2, 1], [4, 3, 1]);
+                expectAsCommand(volume, '--sun-direction', '0.3,-2,1', '--sun-irradiance', '4,3,1');
+                volume.relightSky(constantSky([1, 1, 1]));
+                expectAsCommand(volume, '--sun-direction', '0.3,-2,1', '--sun-irradiance', '4,3,1', '--sky', '1');
+            });
+
+            test('the file stays as it is', () => {
+                const before = baked.slice();
+                const volume = read(baked);
+                volume.relightSky(constantSky([9, 9, 9]));
+                volume.relightSun([0, -1, 0], [9, 9, 9]);
+                expect(Buffer.compare(baked, before)).toBe(0);
+            });
+        });
+
+    test('refuse skies and suns that no light can have, and volumes without a transfer', () => {
+        const plain = read(folder.bake(undefined, '--layers', 'sun,sky'));
+        expect(() => plain.relightSky(constantSky([1, 1, 1]))).toThrow('transfer is missing');
+        const full = read(folder.bake(undefined, '--layers', 'sky,transfer'));
+        expect(() => full.relightSky([1, 2, 3])).toThrow('sky has 3 numbers instead of 48');
+        expect(() => full.relightSky(constantSky([NaN, 1, 1]))).toThrow('sky is not finite: number 0 is NaN');
+        expect(() => full.relightSun([0, -1, 0], [1, 1, 1])).toThrow('no layer "sun"');
+        const moving = read(folder.bake(undefined, '--layers', 'sun,sky,transfer'));
+        expect(() => moving.relightSun([0, 0, 0], [1, 1, 1])).toThrow('direction is (0, 0, 0)');
+        expect(() => moving.relightSun([0, -1, 0], [Infinity, 1, 1])).toThrow('irradiance is not finite');
     });
 
     test('cannot change a volume without layers', () => {
