@@ -2,6 +2,7 @@
 // The light of a volume as the grid that the WebGL renderer of three.js reads (LightProbeGridWebGL, three r187).
 import * as three from 'three';
 
+import {argumentError} from '../error.js';
 import type {QueryOptions} from '../query_options.js';
 import {kCoefficients} from '../sh.js';
 import type {Volume} from '../volume.js';
@@ -48,15 +49,42 @@ export function toLightProbeGrid(volume: Volume, box: three.Box3, resolution: re
     }
     const sh = new Float32Array(kCoefficients * nx * ny * nz);
     volume.batch(positions, {sh}, options);
+    return makeGrid(box, resolution, makeTexels(sh, nx, ny, nz));
+}
+
+/** The JSON file that `tetralight export --as three-grid` writes. */
+export interface GridFile {
+    min: readonly number[];
+    max: readonly number[];
+    resolution: readonly number[];
+    /** Texels of the texture along each axis. */
+    texture: readonly number[];
+    /** Name of the file of the texture, beside this one. */
+    data: string;
+}
+
+/** The grid of an export: its JSON, and the bytes of the file that `data` names. */
+export function readLightProbeGrid(file: GridFile, data: ArrayBuffer): VolumeGrid {
+    const [nx, ny, nz] = file.resolution;
+    const size = 4 * 4 * kTexels * nx * ny * (nz + 2);
+    if (data.byteLength !== size) throw argumentError('data', `has ${data.byteLength} bytes instead of ${size}`);
+    const box = new three.Box3(new three.Vector3().fromArray(file.min), new three.Vector3().fromArray(file.max));
+    return makeGrid(box, [nx, ny, nz], new Float32Array(data));
+}
+
+function makeGrid(box: three.Box3, [nx, ny, nz]: readonly [number, number, number], texels: Float32Array<ArrayBuffer>): VolumeGrid {
     const grid = new VolumeGrid();
     grid.boundingBox.copy(box);
     grid.resolution.set(nx, ny, nz);
-    grid.texture = makeTexture(sh, nx, ny, nz);
+    grid.texture = new three.Data3DTexture(texels, nx, ny, kTexels * (nz + 2));
+    grid.texture.type = three.FloatType;
+    grid.texture.minFilter = grid.texture.magFilter = three.LinearFilter;
+    grid.texture.needsUpdate = true;
     return grid;
 }
 
 /** Seven volumes along z, each with a copy of its first and of its last slice beside them. */
-function makeTexture(sh: Float32Array, nx: number, ny: number, nz: number): three.Data3DTexture {
+function makeTexels(sh: Float32Array, nx: number, ny: number, nz: number): Float32Array<ArrayBuffer> {
     const slices = nz + 2;
     const each = nx * ny;
     const texels = new Float32Array(4 * each * kTexels * slices);
@@ -72,9 +100,5 @@ function makeTexture(sh: Float32Array, nx: number, ny: number, nz: number): thre
             }
         }
     }
-    const texture = new three.Data3DTexture(texels, nx, ny, kTexels * slices);
-    texture.type = three.FloatType;
-    texture.minFilter = texture.magFilter = three.LinearFilter;
-    texture.needsUpdate = true;
-    return texture;
+    return texels;
 }
