@@ -112,11 +112,6 @@ struct Export {
                              shown_path(lightmaps_path) + " has none"};
         }
         const auto file = open_lightmaps(lightmaps_path);
-        if (!file && open_probe_file_lazy(lightmaps_path)) {
-            return Error{ErrorCode::InvalidArgument, "as", "",
-                         shown_path(lightmaps_path) +
-                             ": contains probes; --as names a format for them (docs/engines.md)"};
-        }
         if (!file) return file.error();
         const LightmapsView& maps = (*file)->view();
         const auto paths = output_paths(maps.info.page_count);
@@ -221,6 +216,12 @@ struct Export {
 Status run_export(const Values& values) {
     if (const ExportTarget* target = chosen_export_target(values)) {
         return export_volume(values, *target);
+    }
+    const std::string path = values.text("volume");
+    if (open_probe_file_lazy(path)) {
+        return Error{
+            ErrorCode::InvalidArgument, "as", "",
+            shown_path(path) + ": contains probes; --as names a format for them (docs/engines.md)"};
     }
     return Export(values).run();
 }

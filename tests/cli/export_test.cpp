@@ -43,6 +43,11 @@ TEST_F(Export, ExrAndPngHaveOneFileAPage) {
     EXPECT_EQ(page->mended_pixel_count, 0u);
 }
 
+TEST_F(Export, SettingsOfProbeVolumesAreRefused) {
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "c.png", "--spacing", "1"}),
+                         "--spacing: is for probe volumes"));
+}
+
 TEST_F(Export, TheFormatFitsTheNameOfTheOutput) {
     EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "--as", "png", "-o", "c.exr"}),
                          "--as: png does not fit the name of the output, c.exr"));
@@ -153,9 +158,10 @@ class ExportVolume : public CommandFixture {
 TEST_F(ExportVolume, TheOutputNamesTheFormatIfOnlyOneHasItsExtension) {
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.vtu"})["as"], "vtu");
     EXPECT_EQ(run_json({"export", "v.probes", "-o", "v.csv"})["as"], "csv");
-    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.json"}), "--as is required"));
-    // Lightmaps have this one, too.
-    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
+    for (const char* output : {"v.json", "v.glb", "v.txt.gz"}) {
+        EXPECT_TRUE(contains(fail({"export", "v.probes", "-o", output}),
+                             "v.probes: contains probes; --as names a format for them"));
+    }
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "--as", "csv", "-o", "v.txt"}),
                          "--output: v.txt: a file for csv ends with .csv"));
 }
@@ -187,9 +193,8 @@ TEST_F(ExportVolume, FilesForBevyAndUnrealNameEachOther) {
                          "--resolution: gives a texture of 1 x 2050 x 3 texels"));
 }
 
-/// A .glb may be a scene with lightmaps too: the format has to be named.
+/// A .glb of probes is a scene that our own reader opens.
 TEST_F(ExportVolume, GlbIsAScene) {
-    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.glb"}), "--scene is required"));
     const Json json = run_json({"export", "v.probes", "--as", "gltf", "-o", "v.glb"});
     EXPECT_EQ(json["files"].size(), 1u);
     const auto scene = read_gltf(path("v.glb"));
@@ -217,8 +222,6 @@ TEST_F(ExportVolume, SettingsBelongToFormats) {
                          "--at: vtu does not hold the light of single places"));
     EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.vtu", "--map", "mono-sh"}),
                          "--map: is for lightmaps and reflection probes"));
-    EXPECT_TRUE(contains(misuse({"export", "v.probes", "-o", "v.png", "--spacing", "1"}),
-                         "--spacing: is for probe volumes"));
     EXPECT_TRUE(contains(fail({"export", "v.probes", "--as", "three-grid", "--bounds",
                                "0,0,0,1,0,1", "-o", "v.json"}),
                          "--bounds: the minimum is not below the maximum along each axis"));
