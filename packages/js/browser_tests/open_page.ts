@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page in Chromium with software rendering, which runs one file of this folder.
+// Chromium with software rendering, and pages that run one file of this folder.
 import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 
@@ -20,13 +20,17 @@ export function launch(): Promise<Browser> {
         '--ignore-gpu-blocklist']});
 }
 
-/** A page with a canvas of 8 × 8 pixels that has run the bundle of `entry`. Other addresses serve `files`. */
-export async function openPage(browser: Browser, entry: string, files: Record<string, string> = {}): Promise<Page> {
+/** The code of a script and all that it imports. */
+export async function bundle(entry: string): Promise<string> {
     const built = await build({
         root: kRoot, configFile: false, logLevel: 'error', define: {'process.env.NODE_ENV': '"production"'},
-        build: {write: false, target: 'es2022',
-                lib: {entry: join(__dirname, entry), formats: ['iife'], name: 'unused', fileName: 'page'}},
+        build: {write: false, target: 'es2022', lib: {entry, formats: ['iife'], name: 'unused', fileName: 'page'}},
     }) as Rollup.RollupOutput[];
+    return (built[0].output[0] as Rollup.OutputChunk).code;
+}
+
+/** A page with a canvas of 8 × 8 pixels that has run the bundle of `entry`. Other addresses serve `files`. */
+export async function openPage(browser: Browser, entry: string, files: Record<string, string> = {}): Promise<Page> {
     const page = await (await browser.newContext()).newPage();
     const scripts = Object.keys(files).filter(name => name.endsWith('.js')).map(name => `<script src="/${name}"></script>`);
     const html = `<!doctype html><canvas width="8" height="8" style="width: 8px; height: 8px"></canvas>${scripts.join('')}`;
@@ -39,6 +43,6 @@ export async function openPage(browser: Browser, entry: string, files: Record<st
     });
     page.on('pageerror', error => console.error(error));
     await page.goto('http://page.test/');
-    await page.addScriptTag({content: (built[0].output[0] as Rollup.OutputChunk).code});
+    await page.addScriptTag({content: await bundle(join(__dirname, entry))});
     return page;
 }

@@ -4,14 +4,15 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {irradiance, kCoefficients} from '../src/index.js';
 import {makeRandom} from '../tests/random.js';
-import {kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {kCanRun} from './open_page.js';
+import {LitSquares, TestPage} from './three_browser.js';
 import {testObjects} from './three_object_tests.js';
 import type {page as PageOfBrowser} from './three_page.js';
 
 type Window = {page: typeof PageOfBrowser};
 const kCount = 40;
 
-describe.skipIf(!kCanTest)('in three.js', () => {
+describe.skipIf(!kCanRun)('in three.js', () => {
     let lit: LitSquares;
     let opened: TestPage;
     beforeAll(async () => {

@@ -1,37 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chromium with a bundled page, and the volume that the pages of three.js draw.
-import {existsSync} from 'node:fs';
 import {join} from 'node:path';
 
-import {Browser, chromium, Page} from 'playwright-core';
-import {build, Rollup} from 'vite';
+import type {Browser, Page} from 'playwright-core';
 
 import {irradiance, read, Volume} from '../src/index.js';
-import {Folder, kCommand, kCourtyard} from '../tests/command.js';
+import {Folder} from '../tests/command.js';
 import {makePositions, makeRandom} from '../tests/random.js';
+import {bundle, launch} from './open_page.js';
 import type {Square} from './three_squares.js';
 
-const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const kAlbedo = 0.5;
 const kCount = 40;
-
-export const kCanTest = kCommand !== '' && kCourtyard !== '' && existsSync(kChromium);
-
-/** The code of a script and all that it imports. */
-export async function bundle(entry: string): Promise<string> {
-    const built = await build({
-        root: join(__dirname, '..'), configFile: false, logLevel: 'error',
-        define: {'process.env.NODE_ENV': '"production"'},
-        build: {write: false, target: 'es2022', lib: {entry, formats: ['iife'], name: 'unused', fileName: 'page'}},
-    }) as Rollup.RollupOutput[];
-    return (built[0].output[0] as Rollup.OutputChunk).code;
-}
-
-export async function startChromium(): Promise<Browser> {
-    return chromium.launch({executablePath: kChromium, args: [
-        '--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-        '--ignore-gpu-blocklist']});
-}
 
 /** A page with a script of this folder; problems of the page are listed in `problems`. */
 export class TestPage {
@@ -40,7 +20,7 @@ export class TestPage {
 
     static async open(script: string): Promise<TestPage> {
         const code = await bundle(join(__dirname, script));
-        const browser = await startChromium();
+        const browser = await launch();
         const opened = new TestPage(browser, await (await browser.newContext()).newPage());
         opened.page.on('pageerror', error => opened.problems.push(error.message));
         opened.page.on('console', message => {

@@ -8,11 +8,11 @@ import {createServer, ViteDevServer} from 'vite';
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {Folder, kCourtyard} from '../tests/command.js';
-import {kCanTest, startChromium} from './three_browser.js';
+import {kCanRun, launch} from './open_page.js';
 
 const kExamples = join(__dirname, '../examples');
 
-describe.skipIf(!kCanTest)('examples of three.js', () => {
+describe.skipIf(!kCanRun)('examples of three.js', () => {
     const folder = new Folder();
     let server: ViteDevServer;
     let browser: Browser;
@@ -27,7 +27,7 @@ describe.skipIf(!kCanTest)('examples of three.js', () => {
         server = await createServer({configFile: join(kExamples, 'vite.config.ts'), publicDir: folder.file('public'),
                                      cacheDir: folder.file('cache'), logLevel: 'error', server: {port: 0, host: '127.0.0.1'}});
         await server.listen();
-        browser = await startChromium();
+        browser = await launch();
         page = await (await browser.newContext({viewport: {width: 320, height: 180}})).newPage();
         page.on('pageerror', error => problems.push(error.message));
         page.on('console', message => { if (message.type() === 'error') problems.push(message.text()); });

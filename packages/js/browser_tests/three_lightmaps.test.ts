@@ -4,14 +4,15 @@ import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
 import {LayerWeights, lightmapIrradiance, Lightmaps, readLightmaps} from '../src/index.js';
 import {Folder, kCourtyard} from '../tests/command.js';
-import {kCanTest, TestPage} from './three_browser.js';
+import {kCanRun} from './open_page.js';
+import {TestPage} from './three_browser.js';
 import type {page as PageOfBrowser, Shown} from './three_lightmap_page.js';
 
 type Window = {page: typeof PageOfBrowser};
 
 const kAlbedo = 0.5;
 
-describe.skipIf(!kCanTest)('lightmaps in three.js', () => {
+describe.skipIf(!kCanRun)('lightmaps in three.js', () => {
     const folder = new Folder();
     let opened: TestPage;
     let lightmaps: Lightmaps;

@@ -6,7 +6,8 @@ import {floatOfHalf} from '../src/half.js';
 import {irradiance, LayerWeights, levelRoughness, readReflections, Reflections} from '../src/index.js';
 import {Folder, kCourtyard} from '../tests/command.js';
 import {makeRandom} from '../tests/random.js';
-import {kCanTest, TestPage} from './three_browser.js';
+import {kCanRun} from './open_page.js';
+import {TestPage} from './three_browser.js';
 import type {Mirror, page as PageOfBrowser} from './three_reflection_page.js';
 
 type Window = {page: typeof PageOfBrowser};
@@ -25,7 +26,7 @@ function faceOf(d: Vector, size: number): {face: number; x: number; y: number} |
     return {face: 2 * axis + (sign < 0 ? 1 : 0), x: place[0], y: place[1]};
 }
 
-describe.skipIf(!kCanTest)('reflection probes in three.js', () => {
+describe.skipIf(!kCanRun)('reflection probes in three.js', () => {
     const folder = new Folder();
     let opened: TestPage;
     let baked: Reflections;

@@ -4,14 +4,15 @@ import {join} from 'node:path';
 
 import {afterAll, beforeAll, describe, expect, test} from 'vitest';
 
-import {bundle, kCanTest, LitSquares, TestPage} from './three_browser.js';
+import {bundle, kCanRun} from './open_page.js';
+import {LitSquares, TestPage} from './three_browser.js';
 import {compareSquares} from './three_compare.js';
 import {testObjects} from './three_object_tests.js';
 import type {page as PageOfBrowser} from './three_tsl_page.js';
 
 type Window = {page: typeof PageOfBrowser};
 
-describe.skipIf(!kCanTest)('as nodes of three.js', () => {
+describe.skipIf(!kCanRun)('as nodes of three.js', () => {
     let lit: LitSquares;
     let opened: TestPage;
     beforeAll(async () => {
