@@ -9,7 +9,9 @@
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -96,12 +98,15 @@ struct VolumeExport {
 
     [[nodiscard]] Status run() const {
         const auto file = open_probe_file(volume_path);
-        if (!file) return file.error();
+        if (!file) return is_image_source() ? not_probes() : file.error();
         if (is_part(*file)) {
             return Error{ErrorCode::InvalidArgument, "volume", volume_path,
                          shown_path(volume_path) + ": is a part of a bake; merge its parts first"};
         }
-        const auto exported = target.make(file->view(), settings);
+        // Floats rather than half floats, where the file has both.
+        const ProbeVolumeView volume =
+            file->view().irradiance.empty() ? file->view() : file->view().without_compact();
+        const auto exported = target.make(volume, settings);
         if (!exported) return named(exported.error());
         const auto paths = output_paths(*exported);
         if (!paths) return paths.error();
@@ -113,6 +118,17 @@ struct VolumeExport {
         common.warn_if_unlit(volume_path, file->view());
         common.report(output, json(*exported, *paths), text(*exported, *paths));
         return Ok{};
+    }
+
+    [[nodiscard]] bool is_image_source() const {
+        return is_lightmap_file(volume_path) || is_reflection_file(volume_path);
+    }
+
+    [[nodiscard]] Error not_probes() const {
+        const char* contents = is_lightmap_file(volume_path) ? "lightmaps" : "reflection probes";
+        return {ErrorCode::InvalidArgument, "as", target.name,
+                str_cat(shown_path(volume_path), ": contains ", contents, ", and ", target.name,
+                        " is for probes")};
     }
 
     /// An error about the volume or about a setting.
@@ -167,6 +183,9 @@ struct VolumeExport {
         std::string text;
         for (const std::string& path : paths) text += str_cat(text.empty() ? "" : ", ", path);
         for (const std::string& loss : losses(exported)) text += "\n  Lost: " + loss;
+        const bool is_beside = exported.difference && exported.difference->place_count == 0;
+        if (is_beside && target.has_grid)
+            text += "\n  The box holds no place inside the probes' hull";
         if (exported.difference && exported.difference->place_count > 0) {
             const LightDifference& difference = *exported.difference;
             text += str_cat(

@@ -100,8 +100,11 @@ std::string escaped_for_csv(std::string_view text) {
         if (character == "\"") out += '"';
         out += character == std::string_view("\0", 1) ? kReplacement : character;
     });
+    // Spreadsheets skip blanks before a formula.
+    const size_t start = field.find_first_not_of(' ');
     const bool is_formula =
-        !field.empty() && std::string_view("=+-@\t\r").find(field[0]) != std::string_view::npos;
+        start != std::string::npos &&
+        std::string_view("=+-@\t\r").find(field[start]) != std::string_view::npos;
     if (is_formula) field.insert(0, 1, '\'');
     if (field.find_first_of("\",\n\r") == std::string::npos) return field;
     return str_cat('"', field, '"');

@@ -26,7 +26,8 @@ namespace tetralight {
 [[nodiscard]] std::string escaped_for_xml(std::string_view text);
 
 /// A field of CSV (RFC 4180), quoted where necessary. A field that a spreadsheet would take for a
-/// formula (it begins with = + - @, a tab or a carriage return) gets an apostrophe before it.
+/// formula (it begins with = + - @, a tab or a carriage return, blanks skipped) gets an apostrophe
+/// before it.
 [[nodiscard]] std::string escaped_for_csv(std::string_view text);
 
 }  // namespace tetralight

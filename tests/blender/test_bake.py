@@ -222,6 +222,12 @@ class Failures(BakeTest):
         self.settings.output = str(self.folder / "none/scene.probes")
         self.assertIn("there is no folder", self.refused())
 
+    def test_the_output_is_a_folder(self):
+        add_probes(*PLACES)
+        for chosen in (str(self.folder), f"{self.folder}/", "/"):
+            self.settings.output = chosen
+            self.assertIn(f"{chosen} is a folder: name a file in it", self.refused())
+
     def test_there_is_no_output_yet(self):
         for output in ("", "//scene.probes"):
             with self.subTest(output):

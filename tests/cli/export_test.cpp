@@ -43,6 +43,11 @@ TEST_F(Export, ExrAndPngHaveOneFileAPage) {
     EXPECT_EQ(page->mended_pixel_count, 0u);
 }
 
+TEST_F(Export, LightmapsAreNotProbes) {
+    EXPECT_TRUE(contains(fail({"export", "c.lightmaps", "--as", "godot", "-o", "c.tres"}),
+                         "c.lightmaps: contains lightmaps, and godot is for probes"));
+}
+
 TEST_F(Export, SettingsOfProbeVolumesAreRefused) {
     EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "c.png", "--spacing", "1"}),
                          "--spacing: is for probe volumes"));

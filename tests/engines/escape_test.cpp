@@ -37,6 +37,7 @@ TEST(Escape, KeepsSpreadsheetsFromFormulas) {
     }
     EXPECT_EQ(escaped_for_csv("\tx"), "'\tx");
     EXPECT_EQ(escaped_for_csv("\rx"), "\"'\rx\"");
+    EXPECT_EQ(escaped_for_csv("  =1"), "'  =1");
     EXPECT_EQ(escaped_for_csv("room 1"), "room 1");
 }
 

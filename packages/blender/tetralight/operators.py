@@ -14,7 +14,7 @@ from .export import ExportError, write_scene
 from .preferences import new_bake
 from .probe_file import read_probes
 from .service import ServiceError
-from .settings import bake_settings, output_path
+from .settings import bake_settings, output_is_folder, output_path
 from .show_probes import hide_probes, show_probes, shown_probes
 from .world import sky_of, write_sky
 
@@ -37,6 +37,8 @@ running = None  # a RunningBake, or None
 def start_bake(context):
     """Exports the scene and starts its bake. Returns warnings of the export."""
     global running
+    if output_is_folder(context.scene):
+        raise BakeError(f"the output {context.scene.tetralight.output} is a folder: name a file in it")
     output = output_path(context.scene)
     if output is None:
         raise BakeError("save the .blend file, or choose an output: there is no folder for the probe volume yet")
@@ -222,7 +224,13 @@ class TETRALIGHT_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
 
     def execute(self, context):
-        target = Path(self.filepath)
+        if not self.filepath:
+            self.report({"ERROR"}, "choose a file to write")
+            return {"CANCELLED"}
+        target = Path(bpy.path.ensure_ext(self.filepath, ".glb"))
+        if not target.parent.is_dir():
+            self.report({"ERROR"}, f"there is no folder {target.parent} for the scene")
+            return {"CANCELLED"}
         beside = target.with_name(f".{target.stem}.new.glb")
         try:
             warnings = write_scene(context, beside)
@@ -252,6 +260,9 @@ class TETRALIGHT_OT_show_probes(bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         path = Path(self.filepath)
+        if not path.is_file():
+            self.report({"ERROR"}, f"{path} is not a file" if self.filepath else "choose a .probes file")
+            return {"CANCELLED"}
         try:
             show(context.scene, read_probes(path), path)
         except (ValueError, OSError) as error:

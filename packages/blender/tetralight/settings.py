@@ -73,6 +73,12 @@ def output_path(scene):
     return Path(bpy.path.ensure_ext(bpy.path.abspath(chosen), ".probes"))
 
 
+def output_is_folder(scene):
+    """Whether the chosen output names a folder instead of a file."""
+    chosen = bpy.path.abspath(scene.tetralight.output)
+    return chosen.endswith(("/", "\\")) or (chosen != "" and Path(chosen).is_dir())
+
+
 def register():
     bpy.utils.register_class(TetralightSettings)
     bpy.types.Scene.tetralight = PointerProperty(type=TetralightSettings)

@@ -68,6 +68,8 @@ export function locateOffSurface(query: Query, position: ArrayLike<number>, norm
 }
 
 function checkBatch(positions: ArrayLike<number>, outputs: BatchOutputs, {normals}: BatchOptions): number {
+    if (!(positions?.length >= 0)) throw argumentError('positions', 'is not an array of numbers');
+    if (!outputs) throw argumentError('outputs', 'is missing: where answers go');
     if (positions.length % 3 !== 0) throw argumentError('positions', `has ${positions.length} numbers, not three each`);
     const count = positions.length / 3;
     const sizes = {sh: kCoefficients, packed: kPacked, occlusion: 4, hints: 1, weights: 4, ambient: 1} as const;

@@ -2,7 +2,7 @@
 // Light from infinitely far away as spherical harmonics of order 3: 16 RGB coefficients, one band more than probes have,
 // because a probe that sees only a part of the sky needs it.
 import {argumentError} from './error.js';
-import {kBasis, Vector} from './sh.js';
+import {checkVector, kBasis, Vector} from './sh.js';
 
 /** Floats of a distant light: three channels of 16 coefficients. */
 export const kDistantCoefficients = 48;
@@ -34,12 +34,14 @@ export function distantSun(direction: Vector, irradiance: Vector): Float32Array 
 
 /** The same radiance, RGB, from everywhere. */
 export function constantSky(radiance: Vector): Float32Array {
+    checkVector('radiance', radiance);
     const light = new Float32Array(kDistantCoefficients);
     for (let channel = 0; channel < 3; ++channel) light[channel] = radiance[channel] * Math.sqrt(4 * Math.PI);
     return light;
 }
 
 export function unit(vector: Vector): [number, number, number] {
+    checkVector('direction', vector);
     const length = Math.hypot(vector[0], vector[1], vector[2]);
     if (!(length > 0 && length < Infinity)) throw argumentError('direction', `is (${Array.from(vector).join(', ')})`);
     return [vector[0] / length, vector[1] / length, vector[2] / length];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance as spherical harmonics: nine RGB coefficients E_i of the orthonormal basis 1, y, z, x, xy, yz, 3z²−1, xz,
 // x²−y² (docs/conventions.md).
+import {argumentError} from './error.js';
 
 /** Floats of one probe: three channels of nine coefficients. */
 export const kCoefficients = 27;
@@ -15,9 +16,15 @@ export const kBasis = [0.28209479177387814, 0.48860251190291992, 0.4886025119029
 
 export type Vector = ArrayLike<number>;
 
+/** Throws unless there are three numbers, which may be NaN or infinite. */
+export function checkVector(name: string, vector: Vector): void {
+    const isVector = vector?.length >= 3 && [0, 1, 2].every(i => typeof vector[i] === 'number');
+    if (!isVector) throw argumentError(name, `is not three numbers: ${JSON.stringify(vector)}`);
+}
+
 /**
  * Irradiance, RGB, on a surface with a unit normal: E(n) = Σ E_i Y_i(n), not divided by π, in the units of the lights.
- * A diffuse surface reflects the radiance albedo / π · E. `sh` has 27 numbers from `from` on.
+ * A diffuse surface reflects the radiance albedo / π · E. `sh` has 27 numbers from `from` on. The normal is not normalized here.
  */
 export function irradiance(sh: Vector, normal: Vector, from = 0): [number, number, number] {
     const [x, y, z] = [normal[0], normal[1], normal[2]];

@@ -10,7 +10,7 @@ import {Query} from './query.js';
 import {QueryOptions, readSettings} from './query_options.js';
 import {checkDistantLight, LayeredLight, layerToRelight, movableSun, openIrradiance, relightLayer} from './relight.js';
 import {FileData, SectionFile} from './section_file.js';
-import {kCoefficients, Vector} from './sh.js';
+import {checkVector, kCoefficients, Vector} from './sh.js';
 import {verify} from './verify.js';
 import {kNone, kProbeFile, readVolumeData, VolumeData} from './volume_data.js';
 
@@ -103,9 +103,12 @@ export class Volume {
         return readHealth(this.data);
     }
 
-    /** World position of a probe. */
+    /** World position of a probe. Throws if there is none of this number. */
     position(probe: number): [number, number, number] {
         const {positions, info: {origin}} = this.data;
+        if (!(Number.isInteger(probe) && probe >= 0 && probe < this.probeCount)) {
+            throw argumentError('probe', `${probe} is not one of ${this.probeCount}`);
+        }
         return [0, 1, 2].map(i => positions[3 * probe + i] + origin[i]) as [number, number, number];
     }
 
@@ -114,6 +117,7 @@ export class Volume {
      * that the seed grid names; it always ends. Cells that share a face on which the position lies give the same light.
      */
     locate(position: Vector, hint = kNone, options: Pick<QueryOptions, 'outside' | 'fadeDistance'> = {}): Location {
+        checkVector('position', position);
         this.query.locate(position[0], position[1], position[2], hint, readSettings(options));
         return this.location();
     }
@@ -123,6 +127,8 @@ export class Volume {
         const {query, data: {cells}, probeLight} = this;
         const settings = readSettings(options);
         const {hint = kNone, normal} = options;
+        checkVector('position', position);
+        if (normal) checkVector('normal', normal);
         if (normal) locateOffSurface(query, position, normal, hint, settings);
         else query.locate(position[0], position[1], position[2], hint, settings);
         query.hide(settings, settings.radius, settings.renderingLayers);
@@ -162,6 +168,10 @@ export class Volume {
      */
     relightSun(direction: Vector, irradiance: Vector): void {
         const index = movableSun(this.data);
+        checkVector('irradiance', irradiance);
+        if (!(irradiance[0] >= 0 && irradiance[1] >= 0 && irradiance[2] >= 0)) {
+            throw argumentError('irradiance', `is (${Array.from(irradiance).join(', ')}); 0 or more is possible`);
+        }
         const sun = distantSun(direction, irradiance);
         checkDistantLight('irradiance', sun);
         const layer = layerToRelight(this.data, 'sun');

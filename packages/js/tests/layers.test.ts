@@ -106,6 +106,8 @@ describe.skipIf(kCommand === '' || kCourtyard === '')('layers', () => {
         const moving = read(folder.bake(undefined, '--layers', 'sun,sky,transfer'));
         expect(() => moving.relightSun([0, 0, 0], [1, 1, 1])).toThrow('direction is (0, 0, 0)');
         expect(() => moving.relightSun([0, -1, 0], [Infinity, 1, 1])).toThrow('irradiance is not finite');
+        expect(() => moving.relightSun([0, -1, 0], [-1, 1, 1])).toThrow('irradiance is (-1, 1, 1); 0 or more is possible');
+        expect(() => constantSky([1, 2])).toThrow('radiance is not three numbers');
     });
 
     test('cannot change a volume without layers', () => {

@@ -32,12 +32,20 @@ describe.skipIf(kCommand === '' || kCourtyard === '')('a grid of `tetralight exp
         const [texels, wanted] = [a, b].map(image => image.data as Float32Array);
         const largest = largestOf(wanted);
         expect(largest).toBeGreaterThan(0);
-        // Floats and the half floats of the file differ by at most 2^-11.
-        texels.forEach((value, i) => expect(Math.abs(value - wanted[i])).toBeLessThan(1e-3 * largest));
+        texels.forEach((value, i) => expect(Math.abs(value - wanted[i])).toBeLessThan(1e-5 * largest));
     });
 
     test('is refused if the texture is cut off', () => {
         const {file, data} = exported();
         expect(() => readLightProbeGrid(file, data.slice(0, -1))).toThrow('data has 10079 bytes instead of 10080');
+    });
+
+    test('of a volume has whole numbers of cells, and a box', () => {
+        const volume = read(folder.bake(undefined));
+        const box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+        for (const resolution of [[0, 2, 2], [1.5, 2, 2], [2048, 2048, 2]] as [number, number, number][]) {
+            expect(() => toLightProbeGrid(volume, box, resolution)).toThrow(`resolution is (${resolution.join(', ')})`);
+        }
+        expect(() => toLightProbeGrid(volume, new Box3(), [1, 1, 1])).toThrow('box is empty');
     });
 });

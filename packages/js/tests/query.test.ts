@@ -128,3 +128,19 @@ test.skipIf(!hasCommand)('without baked light all light is ambient', () => {
     expect(volume.light([0, 1, 0]).sh).toEqual(volume.ambient);
     expect(volume.locate([0, 1, 0]).probes).toHaveLength(4);
 });
+
+test.skipIf(!hasCommand)('what is not a position, a normal or a probe is refused by name', () => {
+    const volume = read(folder.tetrahedralize(kSets.scattered));
+    const bad = (value: unknown) => value as [number, number, number];
+    for (const position of [[1, 2], 'abc', {}, [undefined, 1, 2], undefined]) {
+        expect(() => volume.light(bad(position))).toThrow('position is not three numbers');
+        expect(() => volume.locate(bad(position))).toThrow('position is not three numbers');
+    }
+    expect(() => volume.light([0, 0, 0], {normal: bad([1, 2])})).toThrow('normal is not three numbers: [1,2]');
+    for (const probe of [-1, 1.5, volume.probeCount]) {
+        expect(() => volume.position(probe)).toThrow(`probe ${probe} is not one of ${volume.probeCount}`);
+    }
+    expect(() => volume.batch(undefined as unknown as Float32Array, {})).toThrow('positions is not an array');
+    // As in the library, no place is lit by the ambient light.
+    expect(volume.light([NaN, 0, 0]).cell).toBe(kNone);
+});

@@ -10,6 +10,9 @@ import type {Volume} from '../volume.js';
 /** RGBA texels of the 27 coefficients of a probe. */
 const kTexels = 7;
 
+/** As of `tetralight export`. */
+const kMostCellsOfAxis = 2048, kMostCells = 2 ** 22;
+
 /** What the convolution with the cosine multiplied each coefficient by. */
 const kCosine = [0, 1, 1, 1, 2, 2, 2, 2, 2].map(band => [Math.PI, 2 * Math.PI / 3, Math.PI / 4][band]);
 
@@ -35,6 +38,12 @@ export class VolumeGrid extends three.Light {
 export function toLightProbeGrid(volume: Volume, box: three.Box3, resolution: readonly [number, number, number],
                                  options: Pick<QueryOptions, 'outside' | 'fadeDistance' | 'walls'> = {}): VolumeGrid {
     const [nx, ny, nz] = resolution;
+    if (!resolution.every(count => Number.isInteger(count) && count > 0 && count <= kMostCellsOfAxis) ||
+        nx * ny * nz > kMostCells) {
+        throw argumentError('resolution', `is (${resolution.join(', ')}); whole numbers from 1 to ${kMostCellsOfAxis}, and at ` +
+                                          `most ${kMostCells} cells, are possible`);
+    }
+    if (box.isEmpty()) throw argumentError('box', 'is empty');
     const size = box.getSize(new three.Vector3());
     const positions = new Float32Array(3 * nx * ny * nz);
     let at = 0;

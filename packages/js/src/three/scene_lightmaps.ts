@@ -8,6 +8,7 @@ import * as three from 'three';
 import {argumentError} from '../error.js';
 import type {LayerWeights} from '../layers.js';
 import {lightmapIrradiance, Lightmaps} from '../lightmaps.js';
+import {kNone} from '../section_file.js';
 
 /** Where a mesh lies in the pages: UVs of the page are UVs of the mesh · scale + offset. */
 interface Place {
@@ -42,9 +43,16 @@ export class SceneLightmaps {
     private readonly placed: LightmappedMesh[];
     private readonly pages: three.DataTexture[];
 
-    /** Throws if a rectangle of the scene is not one of the file: the scene was unwrapped for other lightmaps. */
+    /**
+     * Throws if no mesh of the scene has a rectangle, or if one is not one of the file: the scene was not unwrapped, or for other
+     * lightmaps.
+     */
     constructor(private readonly lightmaps: Lightmaps, scene: three.Object3D) {
         this.placed = placedMeshes(scene);
+        if (this.placed.length === 0 && lightmaps.rectangles.some(({page}) => page !== kNone)) {
+            throw argumentError('scene', 'has no mesh with a place in the lightmaps: load the scene that `tetralight lightmap ' +
+                                         '--unwrapped`, `unwrap` or `export` wrote');
+        }
         checkPlaces(this.placed, lightmaps);
         const {pageSize: size, pageCount, irradiance} = lightmaps;
         const length = 4 * size * size;
