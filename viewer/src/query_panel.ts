@@ -88,7 +88,7 @@ export class QueryPanel {
         const light = this.object.query();
         if (light === null) return;
         this.times.push(performance.now() - start);
-        this.tell(light, this.viewer.volume!.probes);
+        this.announce(light, this.viewer.volume!.probes);
     }
 
     /** The light of the volume is another. */
@@ -115,7 +115,7 @@ export class QueryPanel {
         if (this.box.group.parent !== null) this.moveBox(() => {});
     }
 
-    private tell({cell, probes, weights, sh}: Light, {data: {info}}: Volume): void {
+    private announce({cell, probes, weights, sh}: Light, {data: {info}}: Volume): void {
         const kind = probes.length === 0 ? 'No cell: ambient light' :
             `${cell < info.innerCellCount ? 'Cell' : 'Hull cell'} ${cell}`;
         const rows = probes.map((probe, i) => element(
