@@ -214,9 +214,10 @@ struct Export {
 }  // namespace
 
 Status run_export(const Values& values) {
-    if (const ExportTarget* target = chosen_export_target(values)) {
-        return export_volume(values, *target);
-    }
+    // Lightmaps and reflection probes have extensions of some targets, too: those need --as.
+    const bool is_image = !values.is_given("as") && format_of(values.text("output"));
+    const ExportTarget* target = is_image ? nullptr : chosen_export_target(values);
+    if (target != nullptr) return export_volume(values, *target);
     const std::string path = values.text("volume");
     if (open_probe_file_lazy(path)) {
         return Error{

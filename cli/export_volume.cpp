@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include <tetralight/base/file.h>
@@ -98,7 +99,7 @@ struct VolumeExport {
 
     [[nodiscard]] Status run() const {
         const auto file = open_probe_file(volume_path);
-        if (!file) return is_image_source() ? not_probes() : file.error();
+        if (!file) return not_probes().value_or(file.error());
         if (is_part(*file)) {
             return Error{ErrorCode::InvalidArgument, "volume", volume_path,
                          shown_path(volume_path) + ": is a part of a bake; merge its parts first"};
@@ -120,15 +121,15 @@ struct VolumeExport {
         return Ok{};
     }
 
-    [[nodiscard]] bool is_image_source() const {
-        return is_lightmap_file(volume_path) || is_reflection_file(volume_path);
-    }
-
-    [[nodiscard]] Error not_probes() const {
-        const char* contents = is_lightmap_file(volume_path) ? "lightmaps" : "reflection probes";
-        return {ErrorCode::InvalidArgument, "as", target.name,
-                str_cat(shown_path(volume_path), ": contains ", contents, ", and ", target.name,
-                        " is for probes")};
+    /// The error about a file of lightmaps or reflection probes; none if it is neither.
+    [[nodiscard]] std::optional<Error> not_probes() const {
+        const char* contents = is_lightmap_file(volume_path)     ? "lightmaps"
+                               : is_reflection_file(volume_path) ? "reflection probes"
+                                                                 : nullptr;
+        if (contents == nullptr) return std::nullopt;
+        return Error{ErrorCode::InvalidArgument, "as", target.name,
+                     str_cat(shown_path(volume_path), ": contains ", contents, ", and ",
+                             target.name, " is for probes")};
     }
 
     /// An error about the volume or about a setting.
@@ -205,10 +206,6 @@ const ExportTarget* chosen_export_target(const Values& values) {
     const auto has_extension = [&](const ExportTarget& target) {
         return output.ends_with(target.extension);
     };
-    // Lightmaps and reflection probes have these, too.
-    for (const char* shared : {".exr", ".ktx2", ".png", ".glb"}) {
-        if (output.ends_with(shared)) return nullptr;
-    }
     const auto targets = export_targets();
     if (std::ranges::count_if(targets, has_extension) != 1) return nullptr;
     return &*std::ranges::find_if(targets, has_extension);

@@ -7,8 +7,8 @@
 
 namespace tetralight::cli {
 
-/// The target that `tetralight export` was asked for, by `--as` or by the extension of the output;
-/// null if it writes images or a scene.
+/// The target that `--as` names, or the only one with the extension of the output; null if there is
+/// none.
 [[nodiscard]] const ExportTarget* chosen_export_target(const Values& values);
 
 /// Writes a probe volume for an engine or a tool, and reports what is lost.

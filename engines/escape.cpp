@@ -21,7 +21,7 @@ size_t character_length(std::string_view text, size_t at) {
     return 0;
 }
 
-/// Calls `append(out, character)` for each character, U+FFFD for bytes that are none.
+/// Calls `append(out, character)` for each character; each byte that is not UTF-8 counts as U+FFFD.
 template <class Append>
 std::string escaped(std::string_view text, Append&& append) {
     std::string out;

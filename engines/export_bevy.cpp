@@ -112,7 +112,7 @@ std::string world_file(const Box<glm::dvec3>& box, const std::string& texture_na
         ),
         "bevy_transform::components::transform::Transform": (
           translation: )",
-                   ron_triple((box.min + box.max) * 0.5), R"(,
+                   ron_triple(box.center()), R"(,
           rotation: (0.0, 0.0, 0.0, 1.0),
           scale: )",
                    ron_triple(box.size()), R"(,

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <span>
 
-#include <tetralight/base/str_cat.h>
+#include <tetralight/bake/scene/glb_container.h>
 #include <tetralight/engines/detail/probe_light.h>
 #include <tetralight/engines/detail/targets.h>
 #include <tetralight/probes/edge_visibility.h>
@@ -58,37 +58,23 @@ class GlbWriter {
         return static_cast<int>(json["accessors"].size()) - 1;
     }
 
-    /// The same, as a member of `object`, unless there are no values.
+    /// The same as a member of `object`; nothing if `values` is empty.
     template <class Value>
     void add_to(Json& object, const char* name, const AccessorType& type,
                 std::span<const Value> values) {
         if (!values.empty()) object[name] = add(type, values);
     }
 
-    /// Returns invalid_argument if the file has more bytes than its header can say.
+    /// Returns the errors of `make_glb`.
     [[nodiscard]] Result<std::string> file() {
         if (!data_.empty()) json["buffers"].push_back({{"byteLength", data_.size()}});
-        std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        const uint64_t size = 12 + 8 + text.size() + (data_.empty() ? 0 : 8 + data_.size());
-        if (size > UINT32_MAX) {
-            return Error{ErrorCode::InvalidArgument,
-                         str_cat("needs ", size, " bytes; a .glb file has up to 4 GiB")};
-        }
-        std::string bytes;
-        append_words(bytes, {0x46546C67, 2, static_cast<uint32_t>(size)});      // "glTF"
-        append_words(bytes, {static_cast<uint32_t>(text.size()), 0x4E4F534A});  // "JSON"
-        bytes += text;
-        if (data_.empty()) return bytes;
-        append_words(bytes, {static_cast<uint32_t>(data_.size()), 0x004E4942});  // "BIN"
-        return bytes + data_;
+        const auto bytes = make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace),
+                                    std::as_bytes(std::span(data_)));
+        if (!bytes) return bytes.error();
+        return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     }
 
   private:
-    static void append_words(std::string& bytes, std::initializer_list<uint32_t> words) {
-        bytes.append(reinterpret_cast<const char*>(words.begin()), words.size() * 4);
-    }
-
     std::string data_;
 };
 

@@ -10,6 +10,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/godot_tap.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/escape.h>
 
 namespace tetralight::detail {
@@ -126,17 +127,13 @@ func _show_probes() -> void:
 			_lightmap, data["baked_exposure"])
 )gd";
 
-/// "x, y, z". GDScript reads 5e+20 but not 5e20, which `str_cat` does not write.
-std::string xyz_text(const glm::dvec3& position) {
-    return str_cat(position.x, ", ", position.y, ", ", position.z);
-}
-
 std::string godot_script(const std::string& resource_name, const glm::dvec3& origin) {
     std::string text = kGodotScript;
     const auto replace = [&](std::string_view word, const std::string& value) {
         text.replace(text.find(word), word.size(), value);
     };
     replace("RESOURCE", quoted_for_godot(resource_name));
+    // GDScript reads 5e+20 but not 5e20, which `xyz_text` does not write.
     replace("POSITION", xyz_text(origin));
     return "# Lights objects by light probes, without a LightmapGI node. Set \"Mode\" of their\n"
            "# \"Global Illumination\" to \"Dynamic\". \"probes\" may change while the game "
@@ -167,17 +164,17 @@ Result<ExportedVolume> export_godot(const ProbeVolumeView& volume, const ExportS
     if (volume.positions.empty()) {
         return Error{ErrorCode::InvalidArgument, "has no probes; Godot needs at least one"};
     }
-    const ProbeVolumeView full = volume.irradiance.empty() ? volume : volume.without_compact();
-    const BoxedCells cells = boxed_cells(full);
+    const BoxedCells cells = boxed_cells(volume);
     const BspTree tree = make_bsp_tree(cells.positions, cells.tetrahedra);
     const auto tap = [&](const glm::dvec3& position) {
         return tap_godot_light(cells, tree, glm::vec3(position - volume.info.world_origin));
     };
     const std::string name = settings.name + ".tres";
-    return ExportedVolume{{{name, godot_resource(cells, tree)},
-                           {settings.name + ".gd", godot_script(name, volume.info.world_origin)}},
-                          godot_notes(full, cells, tree),
-                          measure_difference(full, random_places(full, kDifferencePlaces), tap)};
+    return ExportedVolume{
+        {{name, godot_resource(cells, tree)},
+         {settings.name + ".gd", godot_script(name, volume.info.world_origin)}},
+        godot_notes(volume, cells, tree),
+        measure_difference(volume, random_places(volume, kDifferencePlaces), tap)};
 }
 
 }  // namespace tetralight::detail

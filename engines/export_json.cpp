@@ -5,6 +5,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/probe_light.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/escape.h>
 
 namespace tetralight::detail {
@@ -42,10 +43,6 @@ std::string numbers(const Numbers& values, size_t count) {
     return text + "]";
 }
 
-std::string vector(const glm::dvec3& v) {
-    return str_cat('[', v.x, ", ", v.y, ", ", v.z, ']');
-}
-
 std::string coefficients(const IrradianceSh& light) {
     return numbers(&light.coefficients[0].x, 3 * kShCoefficientCount);
 }
@@ -73,8 +70,9 @@ Result<ExportedVolume> export_json(const ProbeVolumeView& volume, const ExportSe
     json.member("unit", "\"metres, right-handed, Y up; irradiance, not divided by pi\"");
     json.member("ambient", coefficients(volume.info.ambient));
     json.array("groups", names.size(), [&](size_t i) { return quoted_for_json(names[i]); });
-    json.array("positions", volume.positions.size(),
-               [&](size_t i) { return vector(world_position(volume, static_cast<uint32_t>(i))); });
+    json.array("positions", volume.positions.size(), [&](size_t i) {
+        return str_cat('[', xyz_text(world_position(volume, static_cast<uint32_t>(i))), ']');
+    });
     json.array("irradiance_sh", light.size(), [&](size_t i) { return coefficients(light[i]); });
     json.array("occlusion", volume.occlusion.size(),
                [&](size_t i) { return numbers(&volume.occlusion[i].x, 4); });

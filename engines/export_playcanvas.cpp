@@ -2,6 +2,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/place_light.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 
 namespace tetralight::detail {
 
@@ -12,8 +13,7 @@ Result<ExportedVolume> export_playcanvas(const ProbeVolumeView& volume,
     const char* separator = "\n";
     for (const PlaceLight& place : light_of_places(volume, settings)) {
         const glm::dvec3& p = place.position;
-        text += str_cat(separator, "    {\"position\": [", p.x, ", ", p.y, ", ", p.z,
-                        "], \"ambientSH\": [");
+        text += str_cat(separator, "    {\"position\": [", xyz_text(p), "], \"ambientSH\": [");
         const char* comma = "";
         for (const glm::vec3& c : coefficients_of(kPlayCanvasSh, place.light)) {
             text += str_cat(comma, c.r, ", ", c.g, ", ", c.b);

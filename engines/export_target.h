@@ -65,6 +65,7 @@ struct ExportTarget {
     bool has_grid = false;
     /// Whether `places` counts.
     bool has_places = false;
+    /// Light is what queries of this view read: without its compact probes, the floats.
     /// Returns invalid_argument if the volume cannot be written in this format, or a setting does
     /// not fit; `Error::field` is the member of `ExportSettings`, or empty.
     Result<ExportedVolume> (*make)(const ProbeVolumeView& volume, const ExportSettings& settings);

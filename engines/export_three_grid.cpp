@@ -7,6 +7,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/escape.h>
 #include <tetralight/engines/sampled_grid.h>
 
@@ -41,7 +42,7 @@ std::string texture(const SampledGrid& grid) {
 }
 
 std::string triple(const auto& v) {
-    return str_cat('[', v.x, ", ", v.y, ", ", v.z, ']');
+    return str_cat('[', xyz_text(v), ']');
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/probe_light.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/escape.h>
 
 namespace tetralight::detail {
@@ -61,7 +62,7 @@ std::string probes_json(const ProbeVolumeView& volume) {
         "SphericalHarmonicsL2[channel, i]\"";
     append_lines(text, "positions", volume.positions.size(), [&](std::string& out, size_t i) {
         const glm::vec3 p = unity_position(volume, static_cast<uint32_t>(i));
-        out += str_cat(p.x, ", ", p.y, ", ", p.z);
+        out += xyz_text(p);
     });
     append_lines(text, "coefficients", light.size(),
                  [&](std::string& out, size_t i) { append_coefficients(out, light[i]); });

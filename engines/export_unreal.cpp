@@ -13,6 +13,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/half_scale.h>
 #include <tetralight/engines/detail/targets.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/escape.h>
 #include <tetralight/engines/sampled_grid.h>
 #include <tetralight/probes/packed_sh.h>
@@ -99,7 +100,7 @@ Result<std::string> sheet_image(const std::vector<glm::vec4>& texels, uint32_t w
 }
 
 std::string hlsl_vector(const auto& v) {
-    return str_cat("float3(", v.x, ", ", v.y, ", ", v.z, ')');
+    return str_cat("float3(", xyz_text(v), ')');
 }
 
 /// The code of a Custom node.

@@ -9,6 +9,7 @@
 #include <glm/vector_relational.hpp>
 #include <random>
 
+#include <tetralight/engines/detail/probe_light.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
 
@@ -134,7 +135,7 @@ IrradianceSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position,
 
 double largest_irradiance(const ProbeVolumeView& volume) {
     double largest = 0.0;
-    for (const IrradianceSh& light : volume.irradiance) {
+    for (const IrradianceSh& light : detail::probe_light(volume)) {
         largest = std::max(largest, largest_difference(at_normals(light), Irradiances{}));
     }
     return largest;

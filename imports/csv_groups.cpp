@@ -31,13 +31,6 @@ struct CsvColumns {
     Fields others{};
 };
 
-std::string in_lower_case(std::string text) {
-    for (char& letter : text) {
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    }
-    return text;
-}
-
 Result<CsvColumns> columns_without_header(size_t count) {
     if (count != 3 && count != 4) {
         return Error{ErrorCode::Corrupt,
@@ -53,7 +46,7 @@ Result<CsvColumns> columns_without_header(size_t count) {
 Result<CsvColumns> columns_of_header(const Fields& names) {
     CsvColumns columns{{}, names.size(), true};
     for (size_t i = 0; i < names.size(); ++i) {
-        const auto name = std::ranges::find(kColumnNames, in_lower_case(names[i]));
+        const auto name = std::ranges::find(kColumnNames, detail::in_lower_case(names[i]));
         if (name == kColumnNames.end()) {
             columns.others.push_back(detail::quoted_text(names[i]));
             continue;

@@ -19,7 +19,7 @@ namespace tetralight {
 ///
 /// Returns corrupt, with the line and the node, for text that is not a scene, parents that are not
 /// in the file, two nodes of one path, and transforms that are not twelve finite numbers;
-/// unsupported for another version of the format than 3 and 4; not_found if there are no probes.
+/// unsupported for formats other than 3 and 4; not_found without probes.
 [[nodiscard]] Result<ImportedGroups> read_godot_groups(const std::string& path);
 
 }  // namespace tetralight

@@ -8,6 +8,7 @@
 
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/imports/csv_groups.h>
+#include <tetralight/imports/detail/text_file.h>
 #include <tetralight/imports/godot_groups.h>
 #include <tetralight/imports/unity_groups.h>
 
@@ -52,11 +53,7 @@ constexpr GroupReader kReaders[] = {
 };
 
 std::string extension_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension) {
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    }
-    return extension;
+    return detail::in_lower_case(std::filesystem::path(path).extension().string());
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/bake/scene/glb_container.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/base/file.h>
 
@@ -63,7 +63,7 @@ class Document {
         if (!binary_.empty()) {
             json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
         }
-        return detail::make_glb(json_.dump(), binary_);
+        return make_glb(json_.dump(), binary_);
     }
 
   private:

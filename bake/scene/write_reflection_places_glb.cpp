@@ -3,7 +3,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include <tetralight/bake/scene/detail/glb_container.h>
+#include <tetralight/bake/scene/glb_container.h>
 #include <tetralight/bake/scene/reflection_places_gltf.h>
 #include <tetralight/base/file.h>
 
@@ -52,7 +52,7 @@ Status write_reflection_places_glb(const std::string& path,
         json["nodes"] = nodes;
     }
     json["scenes"] = Json::array({scene});
-    const auto bytes = detail::make_glb(json.dump(), {});
+    const auto bytes = make_glb(json.dump(), {});
     if (!bytes) return bytes.error().in(path);
     return write_file(path, *bytes);
 }

@@ -6,6 +6,7 @@
 #include <tetralight/bake/scene/image_based_light_glb.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/engines/detail/probe_light.h>
+#include <tetralight/engines/detail/xyz_text.h>
 #include <tetralight/engines/sampled_grid.h>
 
 namespace tetralight::detail {
@@ -56,15 +57,14 @@ Result<PlaceLight> light_of_one_place(const ProbeVolumeView& volume,
                      str_cat("the format holds the light of one place, and there are ",
                              settings.places.size())};
     }
-    const Box<glm::dvec3> box = world_bounds(volume);
     const glm::dvec3 position =
-        settings.places.empty() ? 0.5 * (box.min + box.max) : settings.places[0];
+        settings.places.empty() ? world_bounds(volume).center() : settings.places[0];
     return PlaceLight{position, light_at(volume, position, Walls::HideProbes)};
 }
 
 std::string other_places_are_lost(const PlaceLight& place) {
     const glm::vec3 p(place.position);  // shorter than doubles
-    return str_cat("The light of all places but ", p.x, ", ", p.y, ", ", p.z, '.');
+    return str_cat("The light of all places but ", xyz_text(p), '.');
 }
 
 }  // namespace tetralight::detail

@@ -59,6 +59,13 @@ std::string quoted_text(std::string_view text) {
     return str_cat("\"", without_controls(part), part.size() < text.size() ? "...\"" : "\"");
 }
 
+std::string in_lower_case(std::string text) {
+    for (char& letter : text) {
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    }
+    return text;
+}
+
 Result<double> parse_number(std::string_view text, std::string_view name) {
     std::string_view digits = text;
     if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);

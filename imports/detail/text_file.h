@@ -34,6 +34,9 @@ class TextFile {
 /// `"text"` as messages quote it: 60 bytes at most, without control characters.
 [[nodiscard]] std::string quoted_text(std::string_view text);
 
+/// With the letters a to z in place of A to Z.
+[[nodiscard]] std::string in_lower_case(std::string text);
+
 /// The number that the whole text is, with or without a sign. Returns corrupt, with `name` as the
 /// field, if it is anything else, too large for a double, or not finite.
 [[nodiscard]] Result<double> parse_number(std::string_view text, std::string_view name);

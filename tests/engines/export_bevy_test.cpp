@@ -11,6 +11,7 @@
 #include <tetralight/base/ktx2.h>
 #include <tetralight/engines/export_target.h>
 #include <tetralight/engines/sampled_grid.h>
+#include "tests/engines/linear_texture.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/temp_folder.h"
 
@@ -69,26 +70,14 @@ class BevyVolume {
     [[nodiscard]] glm::uvec3 size() const { return size_; }
 
   private:
-    [[nodiscard]] glm::vec3 texel(const glm::ivec3& place) const {
-        const glm::uvec3 p(glm::clamp(place, glm::ivec3(0), glm::ivec3(size_) - 1));
+    [[nodiscard]] glm::vec3 texel(size_t index) const {
         std::array<uint16_t, 4> halves{};
-        const size_t index = (size_t{p.z} * size_.y + p.y) * size_.x + p.x;
         std::memcpy(halves.data(), bytes_.data() + texels_ + 8 * index, 8);
         return {float_from_half(halves[0]), float_from_half(halves[1]), float_from_half(halves[2])};
     }
 
-    /// Linear filtering.
     [[nodiscard]] glm::vec3 filtered(const glm::vec3& uvw) const {
-        const glm::vec3 place = uvw * glm::vec3(size_) - 0.5f;
-        const glm::vec3 low = glm::floor(place);
-        const glm::vec3 share = place - low;
-        glm::vec3 sum(0.0f);
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-            const glm::vec3 weights = glm::mix(1.0f - share, share, glm::vec3(step));
-            sum += weights.x * weights.y * weights.z * texel(glm::ivec3(low) + step);
-        }
-        return sum;
+        return test::filtered_texel(size_, uvw, [&](size_t index) { return texel(index); });
     }
 
     const std::string& bytes_;

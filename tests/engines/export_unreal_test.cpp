@@ -10,6 +10,7 @@
 
 #include <tetralight/engines/export_target.h>
 #include <tetralight/engines/sampled_grid.h>
+#include "tests/engines/linear_texture.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/temp_folder.h"
 
@@ -98,23 +99,8 @@ class UnrealVolume {
         }
     }
 
-    [[nodiscard]] const glm::vec4& texel(const glm::ivec3& place) const {
-        const glm::uvec3 p(glm::clamp(place, glm::ivec3(0), glm::ivec3(size_) - 1));
-        return texels_[(size_t{p.z} * size_.y + p.y) * size_.x + p.x];
-    }
-
-    /// Linear filtering.
     [[nodiscard]] glm::vec4 filtered(const glm::vec3& uvw) const {
-        const glm::vec3 place = uvw * glm::vec3(size_) - 0.5f;
-        const glm::vec3 low = glm::floor(place);
-        const glm::vec3 share = place - low;
-        glm::vec4 sum(0.0f);
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-            const glm::vec3 weights = glm::mix(1.0f - share, share, glm::vec3(step));
-            sum += weights.x * weights.y * weights.z * texel(glm::ivec3(low) + step);
-        }
-        return sum;
+        return test::filtered_texel(size_, uvw, [&](size_t index) { return texels_[index]; });
     }
 
     glm::vec3 min_{0.0f};

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
-#include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_check.h>
 #include <tetralight/bake/scene/detail/gltf_draco.h>
@@ -27,6 +26,7 @@
 #include <tetralight/bake/scene/detail/gltf_unread.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/bake/scene/detail/part_list.h>
+#include <tetralight/bake/scene/glb_container.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 

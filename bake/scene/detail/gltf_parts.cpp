@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
-#include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/gltf_animation.h>
 #include <tetralight/bake/scene/detail/gltf_references.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/bake/scene/glb_container.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>

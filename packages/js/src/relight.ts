@@ -4,7 +4,7 @@
 import {argumentError, TetralightError} from './error.js';
 import {dering} from './dering.js';
 import {kDistantCoefficients} from './distant_light.js';
-import {kCoefficients, Vector} from './sh.js';
+import {kCoefficients, kCosine, Vector} from './sh.js';
 import type {StoredLayer, VolumeData} from './volume_data.js';
 
 /** The layers of a volume with their light, which may differ from that of the file. */
@@ -15,9 +15,6 @@ export interface LayeredLight {
 
 /** Floats of a transfer: of direct light to 9 coefficients from 16, and of bounces with channels. */
 const kDirect = 9 * 16, kTransfer = kDirect + 9 * 16 * 3;
-
-/** What irradiance is of radiance, by band. */
-const kCosine = [0, 1, 1, 1, 2, 2, 2, 2, 2].map(band => [Math.PI, 2 * Math.PI / 3, Math.PI / 4][band]);
 
 export function checkDistantLight(name: string, light: Vector): void {
     if (light.length !== kDistantCoefficients) {

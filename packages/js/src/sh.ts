@@ -14,6 +14,9 @@ export const kBasis = [0.28209479177387814, 0.48860251190291992, 0.4886025119029
                 1.09254843059207907, 1.09254843059207907, 0.31539156525252001, 1.09254843059207907,
                 0.54627421529603953];
 
+/** Each coefficient of irradiance over that of radiance: the convolution with the cosine. */
+export const kCosine = [0, 1, 1, 1, 2, 2, 2, 2, 2].map(band => [Math.PI, 2 * Math.PI / 3, Math.PI / 4][band]);
+
 export type Vector = ArrayLike<number>;
 
 /** Throws unless there are three numbers, which may be NaN or infinite. */

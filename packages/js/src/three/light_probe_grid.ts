@@ -4,7 +4,7 @@ import * as three from 'three';
 
 import {argumentError} from '../error.js';
 import type {QueryOptions} from '../query_options.js';
-import {kCoefficients} from '../sh.js';
+import {kCoefficients, kCosine} from '../sh.js';
 import type {Volume} from '../volume.js';
 
 /** RGBA texels of the 27 coefficients of a probe. */
@@ -12,9 +12,6 @@ const kTexels = 7;
 
 /** As of `tetralight export`. */
 const kMostCellsOfAxis = 2048, kMostCells = 2 ** 22;
-
-/** What the convolution with the cosine multiplied each coefficient by. */
-const kCosine = [0, 1, 1, 1, 2, 2, 2, 2, 2].map(band => [Math.PI, 2 * Math.PI / 3, Math.PI / 4][band]);
 
 /** A light that the renderer takes as a grid of probes. It lights everything in its box that receives light. */
 export class VolumeGrid extends three.Light {

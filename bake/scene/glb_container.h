@@ -9,7 +9,7 @@
 
 #include <tetralight/base/result.h>
 
-namespace tetralight::detail {
+namespace tetralight {
 
 /// True if the bytes begin like a .glb file.
 [[nodiscard]] bool is_glb(std::span<const std::byte> bytes);
@@ -29,4 +29,4 @@ struct GlbChunks {
 [[nodiscard]] Result<std::vector<std::byte>> make_glb(std::string json,
                                                       std::span<const std::byte> binary);
 
-}  // namespace tetralight::detail
+}  // namespace tetralight

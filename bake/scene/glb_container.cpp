@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/scene/detail/glb_container.h>
+#include <tetralight/bake/scene/glb_container.h>
 
 #include <cstdint>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 #include <tetralight/base/str_cat.h>
 
-namespace tetralight::detail {
+namespace tetralight {
 namespace {
 
 using Bytes = std::span<const std::byte>;
@@ -110,4 +110,4 @@ Result<std::vector<std::byte>> make_glb(std::string json, Bytes binary) {
     return out;
 }
 
-}  // namespace tetralight::detail
+}  // namespace tetralight
