@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/locate.h>
 #include "tests/support/random_probes.h"
 
@@ -96,6 +97,14 @@ TEST(LightDifference, ComparesIrradianceByNormals) {
     };
     EXPECT_NEAR(shown(1.0f).from_light.worst, 0.0, 1e-6);
     EXPECT_NEAR(shown(0.0f).from_light.median, 1.0, 1e-6);
+}
+
+TEST(LightDifference, CountsVolumesThatHoldHalfFloatsAlone) {
+    ProbeVolume volume = test::make_lit_volume(cube());
+    const double largest = largest_irradiance(volume.view());
+    make_compact_probes(volume);
+    volume.irradiance.clear();
+    EXPECT_NEAR(largest_irradiance(volume.view()), largest, 1e-3 * largest);
 }
 
 TEST(LightDifference, OfAVolumeWithoutLightIsZero) {
