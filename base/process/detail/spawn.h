@@ -3,8 +3,8 @@
 
 #include <sys/types.h>
 
-#include <tetralight/base/descriptor.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/descriptor.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/detail/restrict_files.h>
+#include <tetralight/base/process/detail/restrict_files.h>
 
 #include <fcntl.h>
 #include <sys/prctl.h>

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

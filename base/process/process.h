@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tetralight/base/landlock.h>
+#include <tetralight/base/process/landlock.h>
 #include <tetralight/base/result.h>
 
 // Runs another program and waits for it:

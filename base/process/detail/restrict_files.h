@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include <tetralight/base/landlock.h>
+#include <tetralight/base/process/landlock.h>
 
 namespace tetralight::detail {
 

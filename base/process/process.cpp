@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,8 +15,8 @@
 #include <optional>
 #include <utility>
 
-#include <tetralight/base/descriptor_io.h>
-#include <tetralight/base/detail/spawn.h>
+#include <tetralight/base/process/descriptor_io.h>
+#include <tetralight/base/process/detail/spawn.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 

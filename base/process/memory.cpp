@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 
 #include <algorithm>
 #include <cmath>

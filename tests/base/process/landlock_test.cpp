@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/landlock.h>
+#include <tetralight/base/process/landlock.h>
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 
 #include <csignal>
 
-#include <tetralight/base/descriptor.h>
 #include <tetralight/base/error_text.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/descriptor.h>
+#include <tetralight/base/process/process.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/landlock.h>
+#include <tetralight/base/process/landlock.h>
 
 #include <link.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/detail/spawn.h>
+#include <tetralight/base/process/detail/spawn.h>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -13,7 +13,7 @@
 #include <cstring>
 #include <string>
 
-#include <tetralight/base/detail/restrict_files.h>
+#include <tetralight/base/process/detail/restrict_files.h>
 #include <tetralight/base/system_error.h>
 
 namespace tetralight::detail {
