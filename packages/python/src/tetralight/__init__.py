@@ -9,6 +9,10 @@ Space is right-handed, Y up, in metres; light is linear Rec.709.
 """
 from __future__ import annotations
 
+from typing import Any
+
+from tetralight._declarations import NO_CELL
+from tetralight._library import version as _version
 from tetralight.errors import (
     BadValue,
     Cancelled,
@@ -21,16 +25,34 @@ from tetralight.errors import (
     Unavailable,
     Unsupported,
 )
+from tetralight.light import Light
+from tetralight.lightmaps import Lightmaps, open_lightmaps
+from tetralight.lppv import Lppv
+from tetralight.picture import write_png
+from tetralight.reflections import Reflections, open_reflections
+from tetralight.volume import Volume, open
+
+__version__ = _version()
 
 __all__ = [
+    "NO_CELL",
     "BadValue",
     "Cancelled",
     "Closed",
     "Corrupt",
     "Error",
+    "Light",
+    "Lightmaps",
+    "Lppv",
     "NotFound",
     "NotThere",
     "OutOfMemory",
+    "Reflections",
     "Unavailable",
     "Unsupported",
+    "Volume",
+    "open",
+    "open_lightmaps",
+    "open_reflections",
+    "write_png",
 ]

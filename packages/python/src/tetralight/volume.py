@@ -10,12 +10,16 @@ import numpy as np
 
 from tetralight import _arrays
 from tetralight import _declarations as c
-from tetralight import _query
+from tetralight import _query, mesh
+from tetralight import lppv as proxy
 from tetralight._arrays import AnyArray, FloatArray
 from tetralight._gate import Gate
 from tetralight._library import Handle, call, library, opened
 from tetralight.errors import BadValue, Closed, NotThere
 from tetralight.light import Light
+from tetralight.lppv import Lppv
+from tetralight.picture import Pixels, png, probes_from_above, tone_mapped
+from tetralight.sh import mean_irradiance
 
 DIMENSIONS = ("no probes", "one probe", "a line", "a plane", "space")
 
@@ -121,6 +125,34 @@ class Volume:
         finally:
             self._gate.leave()
 
+    def lppv(
+        self,
+        low: Any,
+        high: Any,
+        resolution: Any,
+        *,
+        world_from_box: Any = None,
+        quality: str = "full",
+        placement: str = "cell_centers",
+        layout: str = "seven_slabs",
+        format: str = "float",
+    ) -> Lppv:
+        """The texture of a proxy volume: a grid of light in a box around a large object.
+
+        low, high: the box in the object's space; world_from_box: its transform (4, 4), by default none.
+        resolution: grid points along X, Y and Z, 1 to 256.
+        quality: which bands of the light vary in the box: "low", "normal" or "full".
+        placement: grid points at "cell_centers" or "cell_corners".
+        layout: "four_slabs" or "seven_slabs"; format: "half" or "float".
+        """
+        box = proxy.box_of(low, high, resolution, world_from_box, quality, placement, layout, format)
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            return proxy.fill(handle.pointer, box, layout, format)
+        finally:
+            self._gate.leave()
+
     # Layers
 
     @property
@@ -160,6 +192,28 @@ class Volume:
             call(library.tetralight_recombine, handle.pointer, array.ctypes.data, len(array))
         finally:
             self._gate.open()
+
+    # Pictures and files
+
+    def picture(self, width: int = 640) -> Pixels:
+        """uint8 (height, width, 3): the probes from above, colored by their mean irradiance. X points
+        right, Z down; higher probes hide lower ones."""
+        if self.has_light:
+            colors = tone_mapped(mean_irradiance(np.asarray(self.irradiance)))
+        else:
+            colors = np.full((self.probe_count, 3), 160, np.uint8)
+        return probes_from_above(self.positions, colors, width)
+
+    def _repr_png_(self) -> bytes | None:
+        return None if self.is_closed else png(self.picture())
+
+    def to_vtu(self, path: str | os.PathLike[str]) -> None:
+        """Writes probes and cells as a .vtu file for ParaView and PyVista."""
+        mesh.write_vtu(self, path)
+
+    def to_meshio(self) -> Any:
+        """Probes and cells as a `meshio.Mesh`; needs meshio."""
+        return mesh.meshio_mesh(self)
 
 
 def open(source: str | os.PathLike[str] | bytes | bytearray | memoryview) -> Volume:
