@@ -21,11 +21,12 @@
  * and short buffers are reported as statuses. The caller guarantees that every other pointer leads
  * to memory of the size that it states. No exception leaves a call.
  *
- * Memory: queries and packing do not allocate. The calls that need much memory (recombine,
- * fill_lppv, make_shader_volume) first ask for all of it, and return TETRALIGHT_OUT_OF_MEMORY if
- * the system refuses. The program still ends in three cases: if a message or another small piece
- * (below 64 KiB a call) cannot be allocated, if the system promises more memory than it has, and if
- * another thread takes the memory in between (docs/decisions/0037-memory-through-the-c-api.md).
+ * Memory: queries and packing do not allocate. The calls that need much memory (open_memory,
+ * recombine, fill_lppv, make_shader_volume) first ask for all of it, and return
+ * TETRALIGHT_OUT_OF_MEMORY if the system refuses. The program still ends in three cases: if a
+ * message or another small piece (below 64 KiB a call) cannot be allocated, if the system promises
+ * more memory than it has, and if another thread takes the memory in between
+ * (docs/decisions/0037-memory-through-the-c-api.md).
  *
  * Threads: calls on different volumes are independent. Calls that take a `const` volume may run on
  * one volume at the same time. The others (recombine, close) must run alone on their volume.
@@ -247,6 +248,13 @@ TETRALIGHT_API tetralight_status tetralight_open(const char* path, tetralight_vo
  * or the ambient light, never a read out of range; `tetralight_verify` finds it. */
 TETRALIGHT_API tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Opens a file that is in memory: of an archive or an asset bundle, from a network. Copies the
+ * bytes, so that they may change or go after the call, and verifies all of them. `bytes` need not
+ * be aligned. Messages begin with "memory". Close `*volume` after use. */
+TETRALIGHT_API tetralight_status
+tetralight_open_memory(const void* bytes, size_t size, tetralight_volume** volume,
+                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Verifies all of a volume that `tetralight_open_lazy` has opened; for a background thread. */
 TETRALIGHT_API tetralight_status tetralight_verify(const tetralight_volume* volume,
@@ -473,6 +481,11 @@ TETRALIGHT_API tetralight_status
 tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
                           tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** The same for a file that is in memory. Copies the bytes. */
+TETRALIGHT_API tetralight_status
+tetralight_lightmaps_open_memory(const void* bytes, size_t size, tetralight_lightmaps** lightmaps,
+                                 tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
 /** Closes lightmaps; does nothing if they are NULL. */
 TETRALIGHT_API void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) TETRALIGHT_NOEXCEPT;
 
@@ -550,6 +563,11 @@ typedef struct tetralight_reflection_blend {
 TETRALIGHT_API tetralight_status
 tetralight_reflections_open(const char* path, tetralight_reflections** reflections,
                             tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The same for a file that is in memory. Copies the bytes. */
+TETRALIGHT_API tetralight_status tetralight_reflections_open_memory(
+    const void* bytes, size_t size, tetralight_reflections** reflections,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Closes reflection probes; does nothing if they are NULL. */
 TETRALIGHT_API void tetralight_reflections_close(tetralight_reflections* reflections)

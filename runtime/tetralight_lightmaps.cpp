@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
-#include <new>
-#include <utility>
 
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_open.h>
 #include <tetralight/runtime/tetralight.h>
 
 struct tetralight_lightmaps {
@@ -19,7 +18,6 @@ using namespace tetralight;
 using detail::CallError;
 using detail::check_floats;
 using detail::check_pointer;
-using detail::file_error;
 using detail::finish;
 using detail::succeed;
 
@@ -38,14 +36,13 @@ CallError check_place(const tetralight_lightmaps* lightmaps, uint32_t page, cons
 
 tetralight_status tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
                                             tetralight_error* error) noexcept {
-    if (auto wrong = check_pointer("path", path)) return finish(wrong, error);
-    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
-    auto file = open_lightmap_file(path);
-    if (!file) return finish(file_error(file.error()), error);
-    auto* opened = new (std::nothrow) tetralight_lightmaps{std::move(*file)};
-    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for lightmaps"}, error);
-    *lightmaps = opened;
-    return succeed(error);
+    return detail::open_path(open_lightmap_file, path, "lightmaps", lightmaps, error);
+}
+
+tetralight_status tetralight_lightmaps_open_memory(const void* bytes, size_t size,
+                                                   tetralight_lightmaps** lightmaps,
+                                                   tetralight_error* error) noexcept {
+    return detail::open_bytes(open_lightmap_memory, bytes, size, "lightmaps", lightmaps, error);
 }
 
 void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) noexcept {
