@@ -2,11 +2,19 @@
 """Errors of the library. Programs branch on the class or on `code`, never on the message."""
 from __future__ import annotations
 
+from typing import Any
+
 
 class Error(Exception):
-    """What went wrong: `code` is a name such as "corrupt", `message` one line for people."""
+    """What went wrong: `code` is a name such as "corrupt", `message` one line for people.
+
+    Errors of the command and the service also have the `field` that is at fault and its `value`, and the `report` of
+    a command that failed with results."""
 
     code = "error"
+    field = ""
+    value = ""
+    report: dict[str, Any] | None = None
 
     def __init__(self, message: str, code: str | None = None) -> None:
         super().__init__(message)
