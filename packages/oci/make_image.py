@@ -39,7 +39,7 @@ def make_root(debs, tar, mirror):
         script = Path(folder) / "install.sh"
         script.write_text(INSTALL)
         subprocess.run(
-            ["mmdebstrap", "--variant=minbase", "--aptopt=Apt::Install-Recommends false", *rules,
+            ["mmdebstrap", "--variant=minbase", "--dpkgopt=force-unsafe-io", "--aptopt=Apt::Install-Recommends false", *rules,
              '--customize-hook=mkdir -p "$1"/tmp/debs',
              *(f"--customize-hook=copy-in {deb} /tmp/debs" for deb in debs),
              f"--customize-hook=copy-in {script} /tmp",

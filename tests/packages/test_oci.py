@@ -96,20 +96,21 @@ class Service(unittest.TestCase):
 
     def serve(self, config, layer, root):
         # As a container does: the files of the layer as root, the program as the user of the image.
-        enter = ["unshare", "--map-root-user"] if os.getuid() else []
-        user = [] if os.getuid() else [f"--userspec={config['User']}"]
+        enter = ["unshare", "--mount", *(["--map-root-user"] if os.getuid() else [])]
+        user = "" if os.getuid() else f"--userspec={config['User']}"
         run(*enter, "tar", "-x", "--exclude=./dev/*", "-f", layer, "-C", root)
-        command = [*enter, "chroot", *user, root, *config["Entrypoint"], "--listen", "127.0.0.1:0"]
-        server = subprocess.Popen([str(word) for word in command], text=True, stdout=subprocess.PIPE)
-        try:
-            address = server.stdout.readline().strip()
-            with urllib.request.urlopen(address + "/healthz", timeout=60) as answer:
-                self.assertEqual(answer.status, 200)
-            with urllib.request.urlopen(address + "/", timeout=60) as page:
-                self.assertIn(b"<html", page.read())
-        finally:
-            server.terminate()
-        self.assertEqual(server.wait(60), 0)
+        program = " ".join([*config["Entrypoint"], "--listen", "127.0.0.1:0"])
+        script = f"mount --rbind /proc {root}/proc && exec chroot {user} {root} {program}"
+        with subprocess.Popen([*enter, "sh", "-c", script], text=True, stdout=subprocess.PIPE) as server:
+            try:
+                address = server.stdout.readline().strip()
+                with urllib.request.urlopen(address + "/healthz", timeout=60) as answer:
+                    self.assertEqual(answer.status, 200)
+                with urllib.request.urlopen(address + "/", timeout=60) as page:
+                    self.assertIn(b"<html", page.read())
+            finally:
+                server.terminate()
+            self.assertEqual(server.wait(60), 0)
 
 
 if __name__ == "__main__":
