@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the ship set (libraries, headers, shaders, and the files by which CMake and pkg-config
-# find them) and the command. CPack makes a Debian package of the ship set (docs/embed.md).
+# find them), the command, and the service. Each component is a Debian package
+# (cmake/TetralightPackages.cmake).
 include(CMakePackageConfigHelpers)
 
 set(ship_modules base probes probes/delaunay probes/build lppv lightmap reflection runtime)
@@ -25,16 +26,24 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_fo
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT dev
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtetralight-dev RENAME copyright)
 
-# The command, and the page of `tetralight serve` if it is built.
+# The command. The programs behind --backend have other licences, so each is a component of its own.
 if(TARGET tetralight_cli)
   install(TARGETS tetralight_cli RUNTIME COMPONENT program)
-  foreach(program tetralight_cgal tetralight_tetgen)
-    if(TARGET ${program})
-      install(TARGETS ${program} RUNTIME COMPONENT program)
+  foreach(program cgal tetgen)
+    if(TARGET tetralight_${program})
+      install(TARGETS tetralight_${program} RUNTIME COMPONENT ${program})
+      install(FILES ${PROJECT_SOURCE_DIR}/packages/debian/tetralight-${program}.1 COMPONENT ${program}
+              DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
     endif()
   endforeach()
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT program
+endif()
+
+# The service, and its page if it is built.
+if(TARGET tetralight_cli AND TETRALIGHT_BUILD_SERVER)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT viewer
           DESTINATION ${CMAKE_INSTALL_DATADIR}/tetralight/viewer)
+  install(FILES ${PROJECT_SOURCE_DIR}/packages/systemd/tetralight.service COMPONENT server
+          DESTINATION lib/systemd/system)
 endif()
 
 # find_package(tetralight COMPONENTS ...)
@@ -65,21 +74,4 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/tetralight.pc.in ${PROJECT_BINARY_DIR
 install(FILES ${PROJECT_BINARY_DIR}/tetralight.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
-# cpack -G DEB
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_NAME tetralight)
-set(CPACK_PACKAGE_CONTACT "Tetralight contributors <tetralight@localhost>")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL dev)
-set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_DEBIAN_DEV_PACKAGE_NAME libtetralight-dev)
-set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "Baked light probes at run time
- Libraries, headers and shaders that locate, interpolate and shade with the
- light probes of .probes files, for C++20, C99, GLSL and HLSL.")
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS libglm-dev)
-if(hwy_FOUND)
-  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libhwy-dev")
-endif()
-include(CPack)
+include(TetralightPackages)
