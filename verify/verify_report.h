@@ -38,16 +38,18 @@ struct VerifyProbe {
     /// World space, with the virtual offset: where its light was sampled.
     glm::dvec3 position{0.0};
     glm::dvec3 volume{0.0};
-    /// Standard error of `volume`, from that which the volume stores. 0: not known.
+    /// The same light as irradiance of each normal.
+    IrradianceSh irradiance;
+    /// Standard error of `volume`, from that which the volume stores. 0: not known, or no light.
     glm::dvec3 volume_error{0.0};
     TracedLight traced;
-    /// (volume − traced) / √(volume_error² + traced.error²); 0 if both errors are 0 and the light
-    /// is the same.
+    /// (volume − traced) / √(volume_error² + traced.error² + rounding²); 0 if both are dark.
     glm::dvec3 z{0.0};
-    /// False: the error bar of both is too wide to decide whether they agree.
+    /// False: the combined error bar is too wide to decide whether they agree, or not known.
     std::array<bool, 3> is_decided{true, true, true};
     /// Difference of irradiance, root mean square over all normals and channels, divided by the
-    /// irradiance of the referee in the same mean. It includes noise.
+    /// irradiance of the referee in the same mean. It includes noise. 0 if the referee has the mean
+    /// irradiance alone.
     double directional_difference = 0.0;
 
     bool operator==(const VerifyProbe&) const = default;
@@ -117,9 +119,8 @@ struct VerifyExcluded {
     uint64_t dilated = 0;     ///< light of probes around them
     uint64_t inside = 0;      ///< inside geometry
     uint64_t overridden = 0;  ///< an adjustment volume changes their light
-    uint64_t dark = 0;        ///< no light in the volume: the error is not known
 
-    [[nodiscard]] uint64_t total() const { return dilated + inside + overridden + dark; }
+    [[nodiscard]] uint64_t total() const { return dilated + inside + overridden; }
 
     bool operator==(const VerifyExcluded&) const = default;
 };
@@ -171,7 +172,7 @@ struct VerifyReport {
     bool operator==(const VerifyReport&) const = default;
 };
 
-/// What a volume has to keep. Empty limits do not count.
+/// What a volume has to keep.
 struct VerifyLimits {
     /// Least share of decided probes within three combined standard errors, in each channel.
     double min_within = 0.99;
