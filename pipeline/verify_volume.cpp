@@ -65,7 +65,7 @@ VerifyProbe make_verify_probe(const ProbeVolumeView& volume, uint32_t probe) {
     made.probe = probe;
     made.position = capture_position(volume, probe);
     made.irradiance = volume.irradiance[probe];
-    made.volume = mean_irradiance(made.irradiance);
+    made.volume = mean_over_normals(made.irradiance);
     if (volume.health.empty()) return made;
     made.volume_error =
         double{volume.health[probe].standard_error} * rms_irradiance(made.irradiance);
@@ -138,7 +138,7 @@ class Preparation {
             made.position = glm::dvec3(place.position);
             made.is_unseen = place.is_unseen();
             made.is_outside = place.location.cell >= volume_.info.inner_cell_count;
-            made.answer = mean_irradiance(interpolate(volume_, place.location).irradiance);
+            made.answer = mean_over_normals(interpolate(volume_, place.location).irradiance);
             report_.places.push_back(made);
         }
     }

@@ -145,7 +145,7 @@ void summarize_places(VerifyReport& report) {
 
 }  // namespace
 
-glm::dvec3 mean_irradiance(const IrradianceSh& irradiance) noexcept {
+glm::dvec3 mean_over_normals(const IrradianceSh& irradiance) noexcept {
     constexpr double kFirstBasis = 0.28209479177387814;  // 1 / (2 √π)
     return kFirstBasis * glm::dvec3(irradiance.coefficients[0]);
 }

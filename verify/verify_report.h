@@ -188,7 +188,7 @@ struct VerifyLimits {
 };
 
 /// Mean irradiance over all normals.
-[[nodiscard]] glm::dvec3 mean_irradiance(const IrradianceSh& irradiance) noexcept;
+[[nodiscard]] glm::dvec3 mean_over_normals(const IrradianceSh& irradiance) noexcept;
 
 /// Luminance of linear Rec.709.
 [[nodiscard]] double luminance(const glm::dvec3& light) noexcept;
