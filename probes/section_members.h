@@ -50,7 +50,7 @@ template <class T>
             ErrorCode::Corrupt,
             str_cat(entry.element_count, " elements are more than 32-bit indices can name")};
     }
-    out = {reinterpret_cast<const T*>(bytes.data()), entry.element_count};
+    out = {reinterpret_cast<const T*>(bytes.data()), static_cast<size_t>(entry.element_count)};
     return Ok{};
 }
 
@@ -75,7 +75,9 @@ template <class View, class ForEachMember>
     bool has_info = false;
     for (const SectionEntry& entry : *table) {
         const std::string name = section_name(entry);
-        const auto section = bytes.subspan(entry.offset, entry.size());
+        // Both fit: the table was checked against the size of the file.
+        const auto section = bytes.subspan(static_cast<size_t>(entry.offset),
+                                           static_cast<size_t>(entry.size()));
         file.sections.push_back({name, entry.offset, entry.size(), entry.element_size});
         Status status = Ok{};
         if (name == "info") {
@@ -94,18 +96,37 @@ template <class View, class ForEachMember>
     return Error{ErrorCode::Corrupt, "info", "", "section \"info\" is missing"};
 }
 
+/// What messages about a file in memory begin with, in place of a path.
+inline constexpr const char* kMemoryName = "memory";
+
+/// Reads header and table of an open file only. Messages begin with its name.
+template <class View, class ForEachMember>
+[[nodiscard]] Result<MappedSections<View>> sections_of(const SectionFileKind& kind,
+                                                       Result<MappedFile> mapping,
+                                                       const std::string& name,
+                                                       ForEachMember for_each_member) {
+    if (!mapping) return mapping.error();
+    MappedSections<View> file;
+    file.mapping = std::move(*mapping);
+    const Status status = read_sections(kind, file.mapping.bytes(), file, for_each_member);
+    if (!status) return status.error().in(name);
+    return file;
+}
+
 /// Maps a file and reads its header and table only. Messages begin with the path.
 template <class View, class ForEachMember>
 [[nodiscard]] Result<MappedSections<View>> map_sections(const SectionFileKind& kind,
                                                         const std::string& path,
                                                         ForEachMember for_each_member) {
-    auto mapping = MappedFile::open(path);
-    if (!mapping) return mapping.error();
-    MappedSections<View> file;
-    file.mapping = std::move(*mapping);
-    const Status status = read_sections(kind, file.mapping.bytes(), file, for_each_member);
-    if (!status) return status.error().in(shown_path(path));
-    return file;
+    return sections_of<View>(kind, MappedFile::open(path), shown_path(path), for_each_member);
+}
+
+/// The same for a copy of a file that is in memory.
+template <class View, class ForEachMember>
+[[nodiscard]] Result<MappedSections<View>> copy_sections(const SectionFileKind& kind,
+                                                         std::span<const std::byte> bytes,
+                                                         ForEachMember for_each_member) {
+    return sections_of<View>(kind, MappedFile::copy_of(bytes), kMemoryName, for_each_member);
 }
 
 /// The checks that `map_sections` leaves out: checksums, then `verify(view)`, the meaning of every

@@ -49,6 +49,26 @@ TEST_F(CApiLightmaps, HasWhatTheFileHas) {
     EXPECT_EQ(info.has_ambient_occlusion, 1u);
 }
 
+TEST_F(CApiLightmaps, OpenFromMemory) {
+    std::vector<std::byte> bytes = lightmap_file_bytes(data.view());
+    tetralight_lightmaps* other = nullptr;
+    ASSERT_EQ(tetralight_lightmaps_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_OK)
+        << error.message;
+    bytes.assign(bytes.size(), std::byte{0xff});
+    ASSERT_EQ(tetralight_lightmaps_sample(other, 1, uv, nullptr, nullptr, rgb, &error),
+              TETRALIGHT_OK);
+    EXPECT_EQ(glm::vec3(rgb[0], rgb[1], rgb[2]), sample_irradiance(data.view(), 1, {uv[0], uv[1]}));
+    tetralight_lightmaps_close(other);
+    other = nullptr;
+    EXPECT_EQ(tetralight_lightmaps_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_CORRUPT);
+    EXPECT_EQ(other, nullptr);
+    EXPECT_EQ(tetralight_lightmaps_open_memory(nullptr, 1, &other, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_open_memory(bytes.data(), 1, nullptr, &error),
+              TETRALIGHT_BAD_POINTER);
+}
+
 TEST_F(CApiLightmaps, SamplesTheShadowMaskAndAmbientOcclusion) {
     float visible[4]{-7.0f, -7.0f, -7.0f, -7.0f};
     float open = -7.0f;

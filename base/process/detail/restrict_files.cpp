@@ -41,7 +41,8 @@ struct Ruleset {
     uint64_t scopes = 0;
 };
 
-struct __attribute__((packed)) PathRule {
+/// The kernel reads the first 12 bytes: its own structure ends after `parent`.
+struct PathRule {
     uint64_t allowed = 0;
     int32_t parent = -1;
 };
