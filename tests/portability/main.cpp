@@ -11,7 +11,9 @@
 #include <vector>
 
 #include <tetralight/base/file.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/portability/check_answers.h"
+#include "tests/portability/check_cells.h"
 #include "tests/portability/check_files.h"
 
 namespace tetralight::portability {
@@ -57,6 +59,11 @@ void check_volume(const std::string& path, Totals& totals) {
         std::printf("%s: %u answers, which differ by up to %g times the tolerance; %s\n",
                     path.c_str(), result.answer_count, result.worst, result.failure.c_str());
     }
+    const auto volume = open_probe_file(file);
+    if (!volume || !cells_are_the_same(volume->view())) {
+        ++totals.wrong;
+        std::printf("%s: its positions are joined by other cells\n", path.c_str());
+    }
     ++totals.volumes;
 }
 
@@ -73,7 +80,7 @@ int run(int count, char** arguments) {
     if (totals.wrong > 0) {
         std::printf("%u checks failed\n", totals.wrong);
     } else {
-        std::printf("files, %u answers of %u volumes by path and from memory: right\n",
+        std::printf("files, cells, %u answers of %u volumes by path and from memory: right\n",
                     totals.answers, totals.volumes);
     }
     return totals.wrong == 0 ? 0 : 1;
