@@ -3,8 +3,8 @@
 //
 //     portability_test WORK_FOLDER VECTORS_FOLDER NAME...
 //
-// Checks files in an empty folder, and the answers of volumes VECTORS_FOLDER/NAME.probes by path
-// and from memory. Prints what is wrong and a last line; exit code 1 if anything is wrong.
+// Checks files in an empty folder, and the cells and answers of volumes VECTORS_FOLDER/NAME.probes.
+// Prints what is wrong and a last line; exit code 1 if anything is wrong.
 #include <cstdio>
 #include <cstring>
 #include <string>
