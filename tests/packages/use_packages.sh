@@ -24,6 +24,10 @@ done
 cc -std=c99 -pedantic -Wall -Werror light.c -o light $(pkg-config --cflags --libs tetralight)
 ./light court.probes 0 1.5 0 >light.txt
 
+if [ -e "$root/usr/lib/python3/dist-packages/tetralight" ]; then
+    python3 -c 'import tetralight; print(tetralight.open("court.probes").query([[0, 1.5, 0]]))' >python.txt
+fi
+
 for page in tetralight tetralight-bake tetralight-serve tetralight-cgal tetralight-tetgen; do
     gzip -t "$root/usr/share/man/man1/$page.1.gz"
 done
