@@ -47,7 +47,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/src/tetralight OPTIONAL 
 if(TARGET tetralight_cli AND TETRALIGHT_BUILD_SERVER)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT viewer
           DESTINATION ${CMAKE_INSTALL_DATADIR}/tetralight/viewer)
-  install(FILES ${PROJECT_SOURCE_DIR}/packages/systemd/tetralight.service COMPONENT server
+  # It names /usr/bin, so it is for packages.
+  install(FILES ${PROJECT_SOURCE_DIR}/packages/systemd/tetralight.service COMPONENT server EXCLUDE_FROM_ALL
           DESTINATION lib/systemd/system)
 endif()
 
