@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
 #include <tetralight/base/result.h>
+
+namespace tetralight::detail {
+class NewFile;
+}
 
 namespace tetralight {
 
@@ -26,7 +30,7 @@ class FileWriter {
     /// `-` (stdout) and devices are written to directly.
     [[nodiscard]] static Result<FileWriter> open(const std::string& path);
 
-    FileWriter(FileWriter&& other) noexcept = default;
+    FileWriter(FileWriter&& other) noexcept;
     FileWriter& operator=(FileWriter&& other) = delete;
     ~FileWriter();
 
@@ -41,18 +45,12 @@ class FileWriter {
     [[nodiscard]] Status commit(FilePieces expected);
 
   private:
-    explicit FileWriter(const std::string& path) : path_(path == "-" ? "stdout" : path) {}
+    FileWriter(std::string path, std::unique_ptr<detail::NewFile> file);
 
-    bool open_beside();
-    bool sync_content();
     [[nodiscard]] Status compare_with(FilePieces expected) const;
-    bool move_into_place();
-    bool give_name();
 
-    std::string path_;       ///< as messages say it
-    std::string target_;     ///< what is replaced; empty: written to in place
-    std::string temporary_;  ///< beside the target; empty: the file has no name yet
-    Descriptor file_;
+    std::string path_;  ///< as messages say it
+    std::unique_ptr<detail::NewFile> file_;
 };
 
 /// Like `write_file` in file.h, but reads the file back and compares it with `pieces` before it

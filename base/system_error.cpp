@@ -14,7 +14,9 @@ ErrorCode error_code_of_errno(int number) noexcept {
         case ENOTDIR:
             return ErrorCode::NotFound;
         case ENOSPC:
+#ifdef EDQUOT  // Windows lacks it
         case EDQUOT:
+#endif
             return ErrorCode::DiskFull;
         case EMFILE:
         case ENFILE:

@@ -14,7 +14,7 @@
 
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/bench/harness.h>
 #include <tetralight/bench/query_subject.h>

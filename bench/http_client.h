@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 namespace tetralight::bench {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {

@@ -19,6 +19,7 @@ constexpr Command kCommands[] = {
     {&settings::kRender, run_render},     {&settings::kMeshball, run_meshball},
     {&settings::kExplain, run_explain},   {&settings::kInfo, run_info},
     {&settings::kValidate, run_validate}, {&settings::kCheckLeaks, run_check_leaks},
+    {&settings::kVerify, run_verify},
 #ifdef TETRALIGHT_HAS_SERVER
     {&settings::kServe, run_serve},       {&settings::kFsck, run_fsck},
     {&settings::kBackup, run_backup},     {&settings::kRestore, run_restore},

@@ -37,6 +37,7 @@ Status run_task(const Values& values);
 Status run_tetrahedralize(const Values& values);
 Status run_unwrap(const Values& values);
 Status run_validate(const Values& values);
+Status run_verify(const Values& values);
 Status run_world(const Values& values);
 
 struct Command {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/slurm_script.h>
 

@@ -46,7 +46,7 @@ endfunction()
 set(tetralight_include_dir ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${tetralight_include_dir}/tetralight)
 foreach(folder base probes charts lppv lightmap reflection runtime bake imports engines pipeline settings batch render server
-               cli bench)
+               cli bench verify)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
          COPY_ON_ERROR SYMBOLIC)

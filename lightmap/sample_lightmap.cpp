@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/half.h>
 #include <tetralight/lightmap/directional_light.h>
@@ -87,36 +88,37 @@ void fetch_block(const TexelPages<IrradianceTexel>& pages, std::span<const uint3
                  std::span<const glm::vec2> uvs, CornerBlock& block) noexcept {
     for (size_t i = 0; i < uvs.size(); ++i) {
         block[i] = corners_at(pages, numbers[i], uvs[i]);
-        __builtin_prefetch(pages.texels + block[i].texels[0]);
-        __builtin_prefetch(pages.texels + block[i].texels[2]);
+        prefetch(pages.texels + block[i].texels[0]);
+        prefetch(pages.texels + block[i].texels[2]);
     }
 }
 
-// Four lanes: the halves of an IrradianceTexel. GCC and Clang compile these types for every
-// processor.
-using Halves = uint16_t __attribute__((vector_size(8)));
-using Words = int32_t __attribute__((vector_size(16)));
-using Floats = float __attribute__((vector_size(16)));
-
-/// `float_from_half` of the magnitude of four halves: irradiance is not negative.
-inline Floats floats_of(const IrradianceTexel& texel) noexcept {
-    constexpr int32_t kBiasDifference = 112 << 23, kSmallestNormal = 1 << 23;
-    static_assert(sizeof(Halves) == sizeof texel);
-    Halves halves;
-    std::memcpy(&halves, &texel, sizeof halves);
-    const Words magnitude = (__builtin_convertvector(halves, Words) & 0x7fff) << 13;
-    const Words normal = magnitude + kBiasDifference;
-    const Words denormal =
-        reinterpret_cast<Words>(reinterpret_cast<Floats>(normal + kSmallestNormal) - 0x1p-14f);
-    const Words is_denormal = magnitude < kSmallestNormal;
-    return reinterpret_cast<Floats>((is_denormal & denormal) | (~is_denormal & normal));
+/// `float_from_half` of the magnitude: irradiance is not negative. Compilers turn four calls into
+/// vector code, since the choice is made by a mask.
+inline float magnitude_from_half(uint16_t half) noexcept {
+    constexpr uint32_t kBiasDifference = 112u << 23, kSmallestNormal = 1u << 23;
+    const uint32_t magnitude = (half & 0x7fffu) << 13;
+    const uint32_t normal = magnitude + kBiasDifference;
+    const float shifted = std::bit_cast<float>(normal + kSmallestNormal);
+    const auto denormal = std::bit_cast<uint32_t>(shifted - 0x1p-14f);
+    const uint32_t is_denormal = 0u - static_cast<uint32_t>(magnitude < kSmallestNormal);
+    return std::bit_cast<float>((is_denormal & denormal) | (~is_denormal & normal));
 }
 
 inline glm::vec3 blended(const IrradianceTexel* texels, const Corners& corners) noexcept {
-    const Floats sum = corners.weights[0] * floats_of(texels[corners.texels[0]]) +
-                       corners.weights[1] * floats_of(texels[corners.texels[1]]) +
-                       corners.weights[2] * floats_of(texels[corners.texels[2]]) +
-                       corners.weights[3] * floats_of(texels[corners.texels[3]]);
+    // Four channels, so that one vector holds a texel.
+    using Texel = std::array<uint16_t, 4>;
+    const auto texel = [&](size_t corner) {
+        return std::bit_cast<Texel>(texels[corners.texels[corner]]);
+    };
+    const Texel a = texel(0), b = texel(1), c = texel(2), d = texel(3);
+    std::array<float, 4> sum;
+    for (size_t i = 0; i < 4; ++i) {
+        sum[i] = corners.weights[0] * magnitude_from_half(a[i]) +
+                 corners.weights[1] * magnitude_from_half(b[i]) +
+                 corners.weights[2] * magnitude_from_half(c[i]) +
+                 corners.weights[3] * magnitude_from_half(d[i]);
+    }
     return {sum[0], sum[1], sum[2]};
 }
 

@@ -67,8 +67,7 @@ std::vector<uint32_t> probes_of_groups(const ProbeVolumeView& volume,
         if (is_member && source.probe < volume.probe_count()) probes.push_back(source.probe);
     }
     std::ranges::sort(probes);
-    const auto repeated = std::ranges::unique(probes);
-    probes.erase(repeated.begin(), repeated.end());
+    probes.erase(std::unique(probes.begin(), probes.end()), probes.end());
     return probes;
 }
 

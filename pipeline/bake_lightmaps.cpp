@@ -12,7 +12,7 @@
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/bake/scene/mapped_normal.h>
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>

@@ -5,16 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <optional>
 
 #include <tetralight/bake/bake_probes.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_metadata.h>
+#include <tetralight/pipeline/baked_sum.h>
 #include <tetralight/pipeline/free_places.h>
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/probes/interpolate.h>
-#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {
@@ -28,26 +27,6 @@ double mean_light(const IrradianceSh& irradiance) {
     const glm::dvec3 light(irradiance.coefficients[0]);
     return kFirstBasis * (0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z);
 }
-
-/// The volume as it was baked: a copy if its layers have other weights now.
-class BakedSum {
-  public:
-    static Result<BakedSum> make(const ProbeVolumeView& volume) {
-        BakedSum sum;
-        sum.view_ = volume;
-        const std::vector<float> ones(volume.layers.size(), 1.0f);
-        if (layer_weights(volume) == ones) return sum;
-        sum.copy_ = copy_volume(volume);
-        if (auto status = recombine(*sum.copy_, ones); !status) return status.error();
-        return sum;
-    }
-
-    [[nodiscard]] ProbeVolumeView view() const { return copy_ ? copy_->view() : view_; }
-
-  private:
-    ProbeVolumeView view_;
-    std::optional<ProbeVolume> copy_;
-};
 
 Error refusal(const char* field, const std::string& reason) {
     return {ErrorCode::InvalidArgument, field, "", reason};

@@ -50,7 +50,7 @@ template <class T>
             ErrorCode::Corrupt,
             str_cat(entry.element_count, " elements are more than 32-bit indices can name")};
     }
-    out = {reinterpret_cast<const T*>(bytes.data()), entry.element_count};
+    out = {reinterpret_cast<const T*>(bytes.data()), static_cast<size_t>(entry.element_count)};
     return Ok{};
 }
 
@@ -75,7 +75,9 @@ template <class View, class ForEachMember>
     bool has_info = false;
     for (const SectionEntry& entry : *table) {
         const std::string name = section_name(entry);
-        const auto section = bytes.subspan(entry.offset, entry.size());
+        // Both fit: the table was checked against the size of the file.
+        const auto section = bytes.subspan(static_cast<size_t>(entry.offset),
+                                           static_cast<size_t>(entry.size()));
         file.sections.push_back({name, entry.offset, entry.size(), entry.element_size});
         Status status = Ok{};
         if (name == "info") {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <new>
 
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>

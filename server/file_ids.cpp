@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::server {

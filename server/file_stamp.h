@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 namespace tetralight::server {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::server {

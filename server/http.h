@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 // Requests and responses as plain values. Handlers see only these; sockets and the HTTP library are
 // hidden behind http_server.h.

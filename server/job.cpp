@@ -8,8 +8,8 @@
 #include <climits>
 #include <cstdlib>
 
-#include <tetralight/base/landlock.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/landlock.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/folders.h>
 #include <tetralight/server/slurm.h>

@@ -17,7 +17,8 @@
 namespace tetralight::server {
 
 /// The folder of a job's results, in its working folder. Nothing else can be written by a job where
-/// the kernel has Landlock (base/landlock.h): not its inputs, which are links to stored files.
+/// the kernel has Landlock (base/process/landlock.h): not its inputs, which are links to stored
+/// files.
 inline constexpr const char* kResults = "results";
 
 struct Job {

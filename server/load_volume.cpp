@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/file_ids.h>
 #include <tetralight/server/problem.h>

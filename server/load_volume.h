@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/server/file_stamp.h>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/problem.h>

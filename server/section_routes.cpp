@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/server/map_guard.h>

@@ -13,7 +13,7 @@
 #include <optional>
 #include <thread>
 
-#include <tetralight/base/landlock.h>
+#include <tetralight/base/process/landlock.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/dispatcher.h>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {

@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
 #include <tetralight/base/file_writer.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/base/result.h>
 
 // Archives of plain files as tar(1) writes and reads them (POSIX ustar).

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::server {

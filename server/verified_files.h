@@ -7,8 +7,8 @@
 #include <mutex>
 #include <string>
 
-#include <tetralight/base/descriptor.h>
 #include <tetralight/base/file.h>
+#include <tetralight/base/process/descriptor.h>
 #include <tetralight/server/file_stamp.h>
 #include <tetralight/server/store.h>
 

@@ -10,11 +10,12 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr const Table* kTables[] = {
-    &kGrid,  &kBake,     &kLightmap,   &kUnwrap, &kReflect, &kBakeAll,  &kPlan,
-    &kTask,  &kCollect,  &kSubmit,     &kExport, &kMerge,   &kPrune,    &kTetrahedralize,
-    &kWorld, &kQuery,    &kRelight,    &kLppv,   &kRender,  &kMeshball, &kExplain,
-    &kInfo,  &kValidate, &kCheckLeaks, &kServe,  &kFsck,    &kBackup,   &kRestore};
+constexpr const Table* kTables[] = {&kGrid,    &kBake,    &kLightmap, &kUnwrap,         &kReflect,
+                                    &kBakeAll, &kPlan,    &kTask,     &kCollect,        &kSubmit,
+                                    &kExport,  &kMerge,   &kPrune,    &kTetrahedralize, &kWorld,
+                                    &kQuery,   &kRelight, &kLppv,     &kRender,         &kMeshball,
+                                    &kExplain, &kInfo,    &kValidate, &kCheckLeaks,     &kVerify,
+                                    &kServe,   &kFsck,    &kBackup,   &kRestore};
 
 std::string upper(std::string_view text) {
     std::string word(text);

@@ -117,7 +117,7 @@ struct Table {
 
 extern const Table kBackup, kBake, kBakeAll, kCheckLeaks, kCollect, kExplain, kExport, kFsck, kGrid,
     kInfo, kLightmap, kLppv, kMerge, kMeshball, kPlan, kPrune, kQuery, kReflect, kRelight, kRender,
-    kRestore, kServe, kSubmit, kTask, kTetrahedralize, kUnwrap, kValidate, kWorld;
+    kRestore, kServe, kSubmit, kTask, kTetrahedralize, kUnwrap, kValidate, kVerify, kWorld;
 
 /// Of `limits` in orders, which is not a command.
 extern const Table kLimits;

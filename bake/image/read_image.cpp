@@ -12,7 +12,7 @@
 #include <tetralight/bake/image/detail/read_exr.h>
 #include <tetralight/bake/image/detail/starts_with.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {

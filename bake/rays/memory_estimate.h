@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <tetralight/bake/scene/scene.h>
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 
 namespace tetralight {
 

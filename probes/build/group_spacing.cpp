@@ -40,7 +40,7 @@ std::vector<std::vector<uint32_t>> probes_by_group(const MergedProbes& merged) {
     }
     for (auto& probes : groups) {
         std::ranges::sort(probes);
-        probes.erase(std::ranges::unique(probes).begin(), probes.end());
+        probes.erase(std::unique(probes.begin(), probes.end()), probes.end());
     }
     return groups;
 }

@@ -77,8 +77,7 @@ uint64_t count_torn_splits(const ProbeVolumeView& volume) {
         if (!is_split && std::ranges::binary_search(splits, edges)) torn.push_back(edges);
     });
     std::ranges::sort(torn);
-    const auto repeated = std::ranges::unique(torn);
-    return static_cast<uint64_t>(repeated.begin() - torn.begin());
+    return static_cast<uint64_t>(std::unique(torn.begin(), torn.end()) - torn.begin());
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ std::vector<ProbeEdge> edges_of(std::span<const Cell> cells, int vertex_count) {
         }
     }
     std::ranges::sort(edges);
-    const auto repeated = std::ranges::unique(edges);
-    edges.erase(repeated.begin(), repeated.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
 }
 

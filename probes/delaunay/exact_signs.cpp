@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/probes/delaunay/detail/big_integer.h>
 #include <tetralight/probes/delaunay/detail/wide_integer.h>
 
@@ -14,9 +15,7 @@ namespace tetralight {
 namespace {
 
 using detail::BigInteger;
-using detail::Int128;
 using detail::multiply;
-using detail::Uint128;
 using detail::WideInteger;
 
 template <class Position, size_t N>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/detail/closest_hull_point.h>
 #include <tetralight/probes/detail/query_pass.h>
@@ -59,7 +60,7 @@ void BatchQueries::place() {
                            block_);
     if (!has_tetrahedra_) block_.start.fill(kNoIndex);
     for (size_t query = 0; has_grid && query < block_.count; ++query) {
-        __builtin_prefetch(words.data() + block_.start[query]);
+        prefetch(words.data() + block_.start[query]);
     }
 }
 
@@ -76,7 +77,7 @@ void BatchQueries::find_starts() {
             if (start >= cell_count) start = seed_of(query);
         }
         block_.start[query] = start;
-        __builtin_prefetch(volume_.cells.data() + start);
+        prefetch(volume_.cells.data() + start);
     }
 }
 
@@ -112,7 +113,7 @@ void BatchQueries::fetch_corners() const {
     if (!has_tetrahedra_ || volume_.positions.size_bytes() <= kNearCache) return;
     for (size_t query = 0; query < block_.count; ++query) {
         for (const uint32_t probe : volume_.cells[block_.start[query]].vertices) {
-            __builtin_prefetch(volume_.positions.data() + probe);
+            prefetch(volume_.positions.data() + probe);
         }
     }
 }

@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/probes/detail/query_kernels.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -121,16 +122,6 @@ template <class F, class From>
 HWY_INLINE Rows<F> load_columns(F f, From from) {
     return transpose(f, {load_row(f, from, 0), load_row(f, from, 1), load_row(f, from, 2),
                          load_row(f, from, 3)});
-}
-
-/// Keeps a compiler from taking lanes out of registers one by one, which is slower than reading
-/// what was stored.
-HWY_INLINE void read_from_memory(const void* stored) {
-#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
-    asm volatile("" : : "r"(stored) : "memory");
-#else
-    static_cast<void>(stored);
-#endif
 }
 
 /// Reads the positions of the corners of cells, a cell a lane.

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/detail/verify_info.h>
@@ -141,9 +142,11 @@ Error cell_error(size_t cell, const std::string& what) {
             str_cat("section \"cells\": cell ", cell, ": ", what)};
 }
 
+/// Without branches.
 bool contains(const std::array<uint32_t, 4>& indices, uint32_t index) {
-    return (indices[0] == index) | (indices[1] == index) | (indices[2] == index) |
-           (indices[3] == index);
+    unsigned equal = 0;
+    for (const uint32_t other : indices) equal |= static_cast<unsigned>(other == index);
+    return equal != 0;
 }
 
 /// A neighbor shares all vertices but one with the cell, and lists the cell as its neighbor.
@@ -214,7 +217,7 @@ constexpr uint32_t kAhead = 16;
 
 void prefetch_neighbors(const ProbeVolumeView& v, uint32_t index) {
     for (const uint32_t neighbor : v.cells[index].neighbors) {
-        if (neighbor < v.cells.size()) __builtin_prefetch(&v.cells[neighbor]);
+        if (neighbor < v.cells.size()) prefetch(&v.cells[neighbor]);
     }
 }
 

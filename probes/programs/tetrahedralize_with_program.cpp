@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/build/check_tetrahedra.h>
 #include <tetralight/probes/programs/stream.h>

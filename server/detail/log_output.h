@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 namespace tetralight::server {
 

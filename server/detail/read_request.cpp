@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include <tetralight/base/descriptor_io.h>
+#include <tetralight/base/process/descriptor_io.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/process/descriptor.h>
 
 namespace tetralight::test {
 

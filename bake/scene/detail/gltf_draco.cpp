@@ -19,7 +19,7 @@
 #include <vector>
 
 #include <tetralight/bake/scene/detail/error_field.h>
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {

@@ -8,7 +8,7 @@
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/bake/scene/scene_memory.h>
-#include <tetralight/base/memory.h>
+#include <tetralight/base/process/memory.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {

@@ -13,7 +13,7 @@ bl_info = {
     "name": "Tetralight",
     "description": "Bakes light probes, and shows them",
     "author": "The Tetralight authors",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Tetralight",
     "category": "Render",

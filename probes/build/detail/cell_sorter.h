@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetralight/base/compiler.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
@@ -70,9 +71,7 @@ class CellSorter {
 
     /// Optional: a cell with this first vertex comes soon. Places lie far apart: fetched when their
     /// turn comes, each store would wait.
-    void expect(uint32_t first_vertex) const {
-        __builtin_prefetch(&cells_[next_[first_vertex]], 1);
-    }
+    void expect(uint32_t first_vertex) const { prefetch_for_writing(&cells_[next_[first_vertex]]); }
 
     void add(const Cell& cell) {
         const uint32_t place = next_[cell.vertices[0]]++;

@@ -3,10 +3,9 @@
 
 #include <cstdint>
 
-namespace tetralight::detail {
+#include <tetralight/base/compiler.h>
 
-__extension__ using Int128 = __int128;
-__extension__ using Uint128 = unsigned __int128;
+namespace tetralight::detail {
 
 /// An integer of 64 · N bits in two's complement. Sums and differences have to fit.
 template <int N>

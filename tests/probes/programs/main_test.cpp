@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/probes/programs/stream.h>
 #include "tests/support/random_probes.h"
 

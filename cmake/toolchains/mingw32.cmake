@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+# Windows, 32 bits, by the package g++-mingw-w64-i686-posix of Debian.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR X86)
+set(CMAKE_CXX_COMPILER i686-w64-mingw32-g++-posix)
+set(CMAKE_FIND_ROOT_PATH /usr/i686-w64-mingw32)
+# Programs need no libraries of the compiler beside them.
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+include(${CMAKE_CURRENT_LIST_DIR}/cross_headers.cmake)

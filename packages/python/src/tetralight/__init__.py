@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Baked light probes: open, query, relight and show .probes files with NumPy.
+
+    volume = tetralight.open("courtyard.probes")
+    light = volume.query(positions)              # positions: (N, 3)
+    light.irradiance(normals)                    # (N, 3), in the lights' own unit, not divided by pi
+
+Space is right-handed, Y up, in metres; light is linear Rec.709.
+"""
+from __future__ import annotations
+
+from typing import Any
+
+from tetralight._declarations import NO_CELL
+from tetralight._library import version as _version
+from tetralight.errors import (
+    BadValue,
+    Cancelled,
+    Closed,
+    Corrupt,
+    Error,
+    NotFound,
+    NotThere,
+    OutOfMemory,
+    Unavailable,
+    Unsupported,
+)
+from tetralight.light import Light
+from tetralight.lightmaps import Lightmaps, open_lightmaps
+from tetralight.lppv import Lppv
+from tetralight.picture import write_png
+from tetralight.reflections import Reflections, open_reflections
+from tetralight.volume import Volume, open
+
+__version__ = _version()
+
+__all__ = [
+    "NO_CELL",
+    "BadValue",
+    "Cancelled",
+    "Closed",
+    "Corrupt",
+    "Error",
+    "Light",
+    "Lightmaps",
+    "Lppv",
+    "NotFound",
+    "NotThere",
+    "OutOfMemory",
+    "Reflections",
+    "Unavailable",
+    "Unsupported",
+    "Volume",
+    "open",
+    "open_lightmaps",
+    "open_reflections",
+    "write_png",
+]

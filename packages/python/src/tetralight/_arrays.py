@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks arrays of callers, and shows memory of the library as arrays."""
+from __future__ import annotations
+
+from typing import Any, Sequence
+
+import numpy as np
+
+from tetralight import _declarations as c
+from tetralight.errors import BadValue
+
+FloatArray = np.ndarray[Any, np.dtype[np.float32]]
+AnyArray = np.ndarray[Any, Any]
+
+
+class _Memory:
+    """Read-only memory of the library. NumPy keeps this object, and with it the owner."""
+
+    def __init__(self, owner: object, pointer: int, shape: Sequence[int], dtype: np.dtype[Any]) -> None:
+        self._owner = owner
+        self.__array_interface__ = {
+            "version": 3,
+            "shape": tuple(shape),
+            "typestr": dtype.str,
+            "data": (pointer, True),
+        }
+
+
+def view_of(
+    owner: object,
+    pointer: int | None,
+    shape: Sequence[int],
+    dtype: Any,
+    strides: Sequence[int] | None = None,
+) -> AnyArray:
+    """A read-only array that shows memory without a copy, and keeps `owner` alive."""
+    kind = np.dtype(dtype)
+    if not pointer or 0 in shape:
+        empty: AnyArray = np.zeros(tuple(shape), kind)
+        empty.flags.writeable = False
+        return empty
+    memory = _Memory(owner, pointer, shape, kind)
+    if strides is not None:
+        memory.__array_interface__["strides"] = tuple(strides)
+    return np.asarray(memory)
+
+
+def shown(shape: Sequence[int | None]) -> str:
+    """(…, 3): None is any length, and the first None any number of axes."""
+    return "(" + ", ".join("…" if n is None else str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
+
+
+def vectors(name: str, values: Any, size: int = 3, dtype: Any = np.float32) -> AnyArray:
+    """Numbers of the shape (…, size). Copies what has another type or has gaps inside a vector."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise BadValue(f"{name}: expected numbers, given {array.dtype}")
+    if array.ndim == 0 or array.shape[-1] != size:
+        raise BadValue(f"{name}: expected the shape {shown((None, size))}, given {array.shape}")
+    array = np.asarray(array, dtype)
+    item = array.dtype.itemsize
+    if array.strides[-1] != item or not array.flags.aligned:
+        array = np.ascontiguousarray(array)
+    return array
+
+
+def three(name: str, values: Any) -> FloatArray:
+    """One vector."""
+    array = np.array(vectors(name, values))
+    if array.shape != (3,):
+        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
+    return array
+
+
+def each(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
+    """One number for each position, or one for all of them, without gaps."""
+    array = np.asarray(values)
+    kind = np.dtype(dtype)
+    if array.dtype.kind not in ("fiu" if kind.kind == "f" else "iu"):
+        raise BadValue(f"{name}: expected {kind}, given {array.dtype}")
+    if array.shape not in ((), shape):
+        raise BadValue(f"{name}: expected the shape {shape}, given {array.shape}")
+    if kind.kind == "u" and array.size and (array.min() < 0 or array.max() > np.iinfo(kind).max):
+        raise BadValue(f"{name}: expected numbers from 0 to {np.iinfo(kind).max}")
+    return np.ascontiguousarray(np.broadcast_to(array, shape), kind)
+
+
+def output(name: str, array: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
+    """An array of the caller that receives answers. It is never copied."""
+    kind = np.dtype(dtype)
+    if not isinstance(array, np.ndarray):
+        raise BadValue(f"{name}: expected an array of NumPy, given {type(array).__name__}")
+    if array.dtype != kind:
+        raise BadValue(f"{name}: expected {kind}, given {array.dtype}")
+    if array.shape != shape:
+        raise BadValue(f"{name}: expected the shape {shape}, given {array.shape}")
+    if not array.flags.writeable:
+        raise BadValue(f"{name}: expected an array that can be written, given a read-only one")
+    return array
+
+
+def rows(name: str, array: AnyArray, row_axes: int) -> AnyArray:
+    """The array with its first axes as one, without a copy: rows whose numbers have no gaps."""
+    row_shape = array.shape[array.ndim - row_axes :]
+    count = int(np.prod(array.shape[: array.ndim - row_axes], dtype=np.int64))
+    if count == 0:
+        return array.reshape((0,) + row_shape)
+    flat = array.view()
+    try:
+        flat.shape = (count,) + row_shape
+    except AttributeError:
+        raise BadValue(
+            f"{name}: expected rows at one distance from each other, given the strides {array.strides}"
+        ) from None
+    expected = array.dtype.itemsize
+    for axis in range(row_axes, 0, -1):
+        if flat.strides[axis] != expected and flat.shape[axis] > 1:
+            raise BadValue(f"{name}: expected rows without gaps, given the strides {array.strides}")
+        expected *= flat.shape[axis]
+    if count > 1 and (flat.strides[0] < expected or flat.strides[0] % flat.dtype.itemsize):
+        raise BadValue(f"{name}: expected rows that follow each other, given the strides {array.strides}")
+    return flat
+
+
+def size_of(flat: AnyArray) -> tuple[int, int]:
+    """Bytes of rows from the first to the last number, and from one row to the next."""
+    row = flat.dtype.itemsize
+    for n in flat.shape[1:]:
+        row *= n
+    if flat.shape[0] < 2:
+        return row * flat.shape[0], row
+    return (flat.shape[0] - 1) * flat.strides[0] + row, flat.strides[0]
+
+
+def c_array(flat: AnyArray | None) -> c.Array:
+    if flat is None:
+        return c.Array()
+    size, stride = size_of(flat)
+    return c.Array(flat.ctypes.data, size, stride)
+
+
+def c_const_array(flat: AnyArray | None) -> c.ConstArray:
+    if flat is None:
+        return c.ConstArray()
+    size, stride = size_of(flat)
+    return c.ConstArray(flat.ctypes.data, size, stride)

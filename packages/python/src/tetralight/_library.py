@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Loads the shared library and turns its statuses into exceptions.
+
+The library is looked for in TETRALIGHT_LIBRARY (a path), beside this file, and where the system keeps
+libraries."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+from tetralight import _declarations as c
+from tetralight import errors
+
+NAME = "libtetralight.so.0"
+
+ERRORS: dict[int, tuple[type[errors.Error], str]] = {
+    c.BAD_POINTER: (errors.BadValue, "bad_value"),
+    c.BAD_VALUE: (errors.BadValue, "bad_value"),
+    c.SHORT_BUFFER: (errors.BadValue, "bad_value"),
+    c.BAD_FILE: (errors.NotFound, "bad_file"),
+    c.NOT_THERE: (errors.NotThere, "not_there"),
+    c.OUT_OF_MEMORY: (errors.OutOfMemory, "out_of_memory"),
+    c.CORRUPT: (errors.Corrupt, "corrupt"),
+    c.UNSUPPORTED: (errors.Unsupported, "unsupported"),
+    c.UNAVAILABLE: (errors.Unavailable, "unavailable"),
+    c.OUT_OF_RESOURCES: (errors.Unavailable, "out_of_resources"),
+    c.DISK_FULL: (errors.Unavailable, "disk_full"),
+    c.CANCELLED: (errors.Cancelled, "cancelled"),
+}
+
+
+def library_path() -> str:
+    chosen = os.environ.get("TETRALIGHT_LIBRARY")
+    if chosen:
+        return chosen
+    beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)
+    return beside if os.path.exists(beside) else NAME
+
+
+def load() -> ctypes.CDLL:
+    path = library_path()
+    try:
+        loaded = ctypes.CDLL(path)
+        c.declare(loaded)
+    except OSError as error:
+        raise ImportError(f"{path}: the library of tetralight cannot be loaded: {error}") from error
+    except AttributeError as error:
+        raise ImportError(f"{path}: not the library of this version of tetralight: {error}") from error
+    version = loaded.tetralight_version() // 100
+    if version != c.VERSION_MAJOR * 100 + c.VERSION_MINOR:
+        raise ImportError(
+            f"{path}: the library has version {loaded.tetralight_version_string().decode()}, "
+            f"the package needs {c.VERSION_MAJOR}.{c.VERSION_MINOR}"
+        )
+    return loaded
+
+
+library = load()
+
+
+def version() -> str:
+    return str(library.tetralight_version_string().decode())
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls a function whose last parameter is `tetralight_error*`. The interpreter lock is released
+    meanwhile. Raises what the status says."""
+    error = c.Error()
+    status = function(*arguments, ctypes.byref(error))
+    if status != c.OK:
+        kind, code = ERRORS.get(status, (errors.Error, "error"))
+        raise kind(error.message.decode("utf-8", "replace"), code)
+
+
+class Handle:
+    """What a function of the library has opened; freed with the last reference to it, so that arrays
+    that show its memory and calls in other threads keep it open."""
+
+    def __init__(self, pointer: int, free: Any) -> None:
+        self.pointer = pointer
+        self._free = free
+
+    def __del__(self) -> None:
+        self._free(self.pointer)
+
+
+def opened(function: Any, free: Any, *arguments: Any) -> Handle:
+    """The handle that a function writes through its last parameter but one."""
+    pointer = ctypes.c_void_p()
+    call(function, *arguments, ctypes.byref(pointer))
+    assert pointer.value is not None
+    return Handle(pointer.value, free)

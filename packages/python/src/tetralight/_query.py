@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One query of many positions, cut into tasks that run on all cores."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tetralight import _arrays
+from tetralight import _declarations as c
+from tetralight._arrays import AnyArray
+from tetralight._library import call, library
+from tetralight._threads import parallel_for, thread_count
+from tetralight.errors import BadValue
+from tetralight.light import FORMATS, Light
+
+TASK_SIZE = 32768
+
+OUTSIDE = {"extrapolate": c.EXTRAPOLATE, "clamp": c.CLAMP, "ambient": c.AMBIENT}
+WALLS = {"hide": c.HIDE_PROBES, "ignore": c.IGNORE_WALLS}
+
+
+def choice(name: str, value: str, choices: dict[str, Any]) -> Any:
+    if value not in choices:
+        raise BadValue(f"{name}: expected {', '.join(map(repr, choices))}, given {value!r}")
+    return choices[value]
+
+
+class Options(NamedTuple):
+    """What `Volume.query` explains."""
+
+    format: str
+    outside: str
+    fade_distance: float
+    walls: str
+    rendering_layers: Any
+    radii: Any
+    normals: Any
+    normal_offset: float
+    threads: int | None
+
+
+def outputs(shape: tuple[int, ...], hints: Any, out: Any, format: str) -> Light:
+    """Memory of the answers: the caller's, or new."""
+    row, kind = choice("format", format, FORMATS)
+    given = out if isinstance(out, Light) else None
+    if given is not None and given.format != format:
+        raise BadValue(f"out: expected the format {format!r}, given {given.format!r}")
+    if given is not None:
+        sh = _arrays.output("out.sh", given.sh, shape + row, kind)
+        occlusion = _arrays.output("out.occlusion", given.occlusion, shape + (4,), np.float32)
+    else:
+        sh = np.empty(shape + row, kind) if out is None else _arrays.output("out", out, shape + row, kind)
+        occlusion = np.empty(shape + (4,), np.float32)
+    if hints is not None:
+        cells = _arrays.output("hints", hints, shape, np.uint32)
+    elif given is not None:
+        cells = _arrays.output("out.cells", given.cells, shape, np.uint32)
+        cells[...] = c.NO_CELL
+    else:
+        cells = np.full(shape, c.NO_CELL, np.uint32)
+    if not cells.flags.c_contiguous:
+        raise BadValue(f"hints: expected an array without gaps, given the strides {cells.strides}")
+    light = given if given is not None else Light(sh, format, occlusion, cells)
+    light.cells = cells
+    return light
+
+
+class Task:
+    """The arrays of a batch as rows, of which each task answers a slice."""
+
+    def __init__(self, volume: int, positions: AnyArray, light: Light, options: Options) -> None:
+        shape = positions.shape[:-1]
+        self.volume = volume
+        self.positions = self.input_rows("positions", positions)
+        self.cells = light.cells.reshape(-1)
+        self.sh = _arrays.rows("out", light.sh, 2)
+        self.occlusion = _arrays.rows("out.occlusion", light.occlusion, 1)
+        self.layers = self.optional("rendering_layers", options.rendering_layers, shape, np.uint32)
+        self.radii = self.optional("radii", options.radii, shape, np.float32)
+        self.normals = self.surface_normals(options.normals, shape)
+        self.batch = c.Batch(
+            sh_format=list(FORMATS).index(light.format),
+            outside=choice("outside", options.outside, OUTSIDE),
+            fade_distance=options.fade_distance,
+            walls=choice("walls", options.walls, WALLS),
+            normal_offset=options.normal_offset,
+        )
+
+    @staticmethod
+    def input_rows(name: str, array: AnyArray) -> AnyArray:
+        """Inputs with other gaps than the library knows are copied."""
+        try:
+            return _arrays.rows(name, array, 1)
+        except BadValue:
+            return np.ascontiguousarray(array).reshape(-1, array.shape[-1])
+
+    @staticmethod
+    def optional(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray | None:
+        return None if values is None else _arrays.each(name, values, shape, dtype).reshape(-1)
+
+    @staticmethod
+    def surface_normals(normals: Any, shape: tuple[int, ...]) -> AnyArray | None:
+        if normals is None:
+            return None
+        array = _arrays.vectors("normals", normals)
+        if array.shape not in ((3,), shape + (3,)):
+            raise BadValue(f"normals: expected the shape {shape + (3,)} or (3,), given {array.shape}")
+        return np.ascontiguousarray(np.broadcast_to(array, shape + (3,))).reshape(-1, 3)
+
+    def answer(self, begin: int, end: int) -> c.Report:
+        part = slice(begin, end)
+        batch = c.Batch.from_buffer_copy(self.batch)
+        batch.count = end - begin
+        batch.positions = _arrays.c_const_array(self.positions[part])
+        batch.hints = _arrays.c_array(self.cells[part])
+        batch.sh = _arrays.c_array(self.sh[part])
+        batch.occlusion = _arrays.c_array(self.occlusion[part])
+        for name, array in (("rendering_layers", self.layers), ("radii", self.radii), ("normals", self.normals)):
+            if array is not None:
+                setattr(batch, name, _arrays.c_const_array(array[part]))
+        report = c.Report()
+        call(library.tetralight_query_batch, self.volume, ctypes.byref(batch), ctypes.byref(report))
+        return report
+
+
+def answer(volume: int, positions: AnyArray, light: Light, options: Options) -> Light:
+    """Fills `light`. Fails before the first answer if an argument is wrong."""
+    task = Task(volume, positions, light, options)
+    count = len(task.positions)
+    task.answer(0, 0)
+    tasks = -(-count // TASK_SIZE)
+    reports: list[c.Report] = [c.Report()] * tasks
+
+    def run(number: int) -> None:
+        begin = number * TASK_SIZE
+        reports[number] = task.answer(begin, min(begin + TASK_SIZE, count))
+
+    parallel_for(tasks, run, thread_count(options.threads))
+    light.not_finite_count = sum(report.not_finite_count for report in reports)
+    light.step_count = sum(report.step_count for report in reports)
+    return light

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reflection probes: cubes of radiance, blurred for each roughness."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+import numpy as np
+
+from tetralight import _arrays
+from tetralight import _declarations as c
+from tetralight._arrays import AnyArray, FloatArray
+from tetralight._library import Handle, call, library, opened
+from tetralight.errors import BadValue, Closed
+
+PROBE = np.dtype(
+    [
+        ("position", np.float64, 3),
+        ("box_center", np.float32, 3),
+        ("half_size", np.float32, 3),
+        ("axes", np.float32, (3, 3)),
+        ("blend_distance", np.float32),
+        ("importance", np.int32),
+        ("validity", np.float32),
+    ]
+)
+
+
+class Reflections:
+    """`tetralight.open_reflections` makes it. All calls may run in several threads at once."""
+
+    def __init__(self, handle: Handle, name: str) -> None:
+        self._handle: Handle | None = handle
+        self.name = name
+        info = c.ReflectionsInfo()
+        call(library.tetralight_reflections_get_info, handle.pointer, ctypes.byref(info))
+        self.size: int = info.size
+        """Texels along each side of a face of level 0; half as many in each further level."""
+        self.level_count: int = info.level_count
+        """Level i is blurred for the roughness 1 - sqrt(1 - i / (level_count - 1))."""
+        self.probe_count: int = info.probe_count
+
+    def close(self) -> None:
+        """Calls fail with `Closed` from now on. Arrays of texels stay valid."""
+        self._handle = None
+
+    def __enter__(self) -> Reflections:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _open_handle(self) -> Handle:
+        handle = self._handle
+        if handle is None:
+            raise Closed(f"{self.name}: the reflection probes are closed")
+        return handle
+
+    def __repr__(self) -> str:
+        return (
+            f"<tetralight.Reflections {self.name!r}: {self.probe_count} cubes of {self.size}², "
+            f"{self.level_count} levels{', closed' if self._handle is None else ''}>"
+        )
+
+    def probes(self) -> AnyArray:
+        """Where each cube was captured and where it is used: `position`, `box_center` (relative to it),
+        `half_size`, `axes`, `blend_distance`, `importance`, `validity`."""
+        handle = self._open_handle()
+        made = np.empty(self.probe_count, PROBE)
+        probe = c.ReflectionProbe()
+        for index in range(self.probe_count):
+            call(library.tetralight_reflections_get_probe, handle.pointer, index, ctypes.byref(probe))
+            for name in PROBE.names or ():
+                made[name][index] = np.reshape(getattr(probe, name), PROBE[name].shape)
+        return made
+
+    def texels(self, level: int = 0) -> AnyArray:
+        """(probe, face, row, column, 4): halves of a level, without a copy. Faces: +X, -X, +Y, -Y, +Z, -Z."""
+        handle = self._open_handle()
+        array = c.ConstArray()
+        call(library.tetralight_reflections_texels, handle.pointer, level, ctypes.byref(array))
+        side = max(1, self.size >> level)
+        return _arrays.view_of(handle, array.data, (self.probe_count, 6, side, side, 4), np.float16)
+
+    def sample(self, positions: Any, directions: Any, roughness: Any = 0.0) -> FloatArray:
+        """(…, 3): radiance that surfaces at positions (…, 3) see in directions (…, 3), the view mirrored at
+        their normals; roughness is one number or one for each position."""
+        handle = self._open_handle()
+        points = np.ascontiguousarray(_arrays.vectors("positions", positions, 3, np.float64))
+        rays = np.ascontiguousarray(_arrays.vectors("directions", directions))
+        if rays.shape != points.shape:
+            raise BadValue(f"directions: expected the shape {points.shape}, given {rays.shape}")
+        rough = _arrays.each("roughness", roughness, points.shape[:-1], np.float32).reshape(-1)
+        made = np.empty(points.shape, np.float32)
+        blend = c.ReflectionBlend()
+        for i, value in enumerate(rough.tolist()):
+            point = points.ctypes.data + i * 24
+            call(library.tetralight_reflections_blend, handle.pointer, point, ctypes.byref(blend))
+            ray, answer = rays.ctypes.data + i * 12, made.ctypes.data + i * 12
+            function = library.tetralight_reflections_sample
+            call(function, handle.pointer, ctypes.byref(blend), point, ray, value, answer)
+        return made
+
+
+def open_reflections(path: str | os.PathLike[str]) -> Reflections:
+    """Opens a .reflections file and verifies all of it."""
+    name = os.fspath(path)
+    handle = opened(library.tetralight_reflections_open, library.tetralight_reflections_close, os.fsencode(name))
+    return Reflections(handle, name)

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the ship set for other platforms, runs its portable test where that is possible, prints a table.
+
+usage: portability.py [--list] [PLATFORM...]
+
+Exit code 1 if a build has a warning or anything fails. `./run portability` calls this.
+"""
+import argparse
+import dataclasses
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+import write_cases
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build" / "portability"
+VECTORS = BUILD / "vectors"
+
+
+@dataclasses.dataclass
+class Platform:
+    """A row of the table."""
+
+    name: str
+    about: str
+    compiler: str  # the command of the C++ compiler
+    toolchain: str = ""  # a file of cmake/toolchains
+    options: tuple = ()  # of CMake
+    target: str = "portability_test"
+    program: str = "tests/portability/portability_test"  # in the folder of the build
+    # The command that runs the program, before it; None: it is only compiled.
+    runner: tuple | None = ()
+    environment: dict = dataclasses.field(default_factory=dict)
+    # Runs the program in another way: run(platform, folder, names) returns (is_right, text).
+    run: object = None
+
+
+PLATFORMS = [
+    Platform("linux", "Linux, x86-64, Highway", "g++"),
+    Platform("mingw64", "Windows, 64 bits", "x86_64-w64-mingw32-g++-posix", toolchain="mingw64",
+             program="tests/portability/portability_test.exe", runner=("/usr/lib/wine/wine64",),
+             environment={"WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all", "DISPLAY": ""}),
+    Platform("mingw32", "Windows, 32 bits", "i686-w64-mingw32-g++-posix", toolchain="mingw32",
+             program="tests/portability/portability_test.exe", runner=None),
+]
+
+
+@dataclasses.dataclass
+class Outcome:
+    compiler: str = "missing"
+    built: str = "no"
+    warnings: int = 0
+    ran: str = "–"
+    failed: bool = True
+
+
+def call(command, log, **options):
+    """Runs a command; what it prints goes to the log. True if it succeeded."""
+    log.write(f"$ {' '.join(map(str, command))}\n")
+    log.flush()
+    return subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, **options).returncode == 0
+
+
+def compiler_version(platform):
+    text = subprocess.run([platform.compiler, "--version"], capture_output=True, text=True).stdout
+    first = text.split("\n")[0]
+    number = re.search(r"\d+\.\d+(\.\d+)?", first)
+    return f"{platform.compiler} {number[0] if number else first}"
+
+
+def build(platform, folder, log):
+    command = ["cmake", "--preset", "ship", "-B", folder, "-Wno-dev", f"-DCMAKE_CXX_COMPILER={platform.compiler}",
+               "-DTETRALIGHT_BUILD_TESTS=OFF", "-DTETRALIGHT_INSTALL=OFF", "-DTETRALIGHT_WARNINGS_AS_ERRORS=ON",
+               "-DTETRALIGHT_BUILD_PORTABILITY_TEST=ON", *platform.options]
+    if platform.toolchain:
+        command += ["--toolchain", ROOT / "cmake" / "toolchains" / f"{platform.toolchain}.cmake"]
+    return (call(command, log, cwd=ROOT) and
+            call(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", platform.target], log))
+
+
+def count_warnings(path):
+    """Warnings of a build that takes them for errors."""
+    return len(re.findall(r"(?m)^\S+:\d+:\d+: (?:error|warning): .*\[-W", path.read_text(errors="replace")))
+
+
+def run_program(platform, folder, names):
+    """Returns whether the test passed, and its last line."""
+    if platform.run:
+        return platform.run(platform, folder, names)
+    work = folder / "work"
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir()
+    command = [*platform.runner, folder / platform.program, "work", VECTORS, *names]
+    ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
+                           capture_output=True, timeout=600)
+    lines = ended.stdout.strip().splitlines() or [f"ended with code {ended.returncode}"]
+    if ended.returncode != 0:
+        print(ended.stdout, ended.stderr, sep="", file=sys.stderr)
+    return ended.returncode == 0, lines[-1]
+
+
+def try_platform(platform, names):
+    outcome = Outcome()
+    if not shutil.which(platform.compiler):
+        return outcome
+    outcome.compiler = compiler_version(platform)
+    folder = BUILD / platform.name
+    folder.mkdir(parents=True, exist_ok=True)
+    log_path = folder / "log.txt"
+    start = time.monotonic()
+    with log_path.open("w") as log:
+        has_built = build(platform, folder, log)
+    outcome.warnings = count_warnings(log_path)
+    if not has_built:
+        print(log_path.read_text(errors="replace")[-4000:], file=sys.stderr)
+        return outcome
+    outcome.built = f"{time.monotonic() - start:.0f} s"
+    if platform.runner is None and platform.run is None:
+        outcome.ran = "compiled only"
+        outcome.failed = False
+        return outcome
+    is_right, outcome.ran = run_program(platform, folder, names)
+    outcome.failed = not is_right
+    return outcome
+
+
+def print_table(rows):
+    head = ("platform", "compiler", "built", "warnings", "ran")
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
+    for row in [head, tuple("-" * width for width in widths), *rows]:
+        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--list", action="store_true", help="print the names of the platforms")
+    parser.add_argument("platforms", nargs="*", help="only these")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print("\n".join(platform.name for platform in PLATFORMS))
+        return 0
+    unknown = set(arguments.platforms) - {platform.name for platform in PLATFORMS}
+    if unknown:
+        parser.error(f"unknown platform {', '.join(sorted(unknown))}")
+    names = write_cases.write_cases(ROOT / "tests" / "conformance" / "vectors", VECTORS)
+    rows, failed = [], False
+    for platform in PLATFORMS:
+        if arguments.platforms and platform.name not in arguments.platforms:
+            continue
+        print(f"== {platform.name}: {platform.about}", flush=True)
+        outcome = try_platform(platform, names)
+        failed = failed or outcome.failed
+        rows.append((platform.about, outcome.compiler, outcome.built, str(outcome.warnings), outcome.ran))
+    print_table(rows)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
