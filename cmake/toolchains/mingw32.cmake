@@ -3,6 +3,8 @@
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR X86)
 set(CMAKE_CXX_COMPILER i686-w64-mingw32-g++-posix)
+# With the x87 floating-point unit, answers would depend on which values the compiler keeps in registers.
+set(CMAKE_CXX_FLAGS_INIT "-msse2 -mfpmath=sse")
 set(CMAKE_FIND_ROOT_PATH /usr/i686-w64-mingw32)
 # Programs need no libraries of the compiler beside them.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)

@@ -3,15 +3,17 @@
 //
 //     portability_test WORK_FOLDER VECTORS_FOLDER NAME...
 //
-// Checks files in an empty folder and the answers of volumes VECTORS_FOLDER/NAME.probes. Prints one
-// line; exit code 1 if anything is wrong.
+// Checks files in an empty folder, and the cells and answers of volumes VECTORS_FOLDER/NAME.probes.
+// Prints what is wrong and a last line; exit code 1 if anything is wrong.
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include <tetralight/base/file.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/portability/check_answers.h"
+#include "tests/portability/check_cells.h"
 #include "tests/portability/check_files.h"
 
 namespace tetralight::portability {
@@ -25,10 +27,21 @@ std::vector<uint32_t> read_words(const std::string& path) {
     return words;
 }
 
-tetralight_volume* open_by_path(const std::string& path, tetralight_error* error) {
-    tetralight_volume* volume = nullptr;
-    tetralight_open(path.c_str(), &volume, error);
-    return volume;
+OpenVolume by_path(const std::string& path) {
+    return [path](tetralight_error* error) {
+        tetralight_volume* volume = nullptr;
+        tetralight_open(path.c_str(), &volume, error);
+        return volume;
+    };
+}
+
+OpenVolume from_memory(const std::string& path) {
+    return [path](tetralight_error* error) {
+        tetralight_volume* volume = nullptr;
+        const auto bytes = read_file(path);
+        if (bytes) tetralight_open_memory(bytes->data(), bytes->size(), &volume, error);
+        return volume;
+    };
 }
 
 struct Totals {
@@ -36,15 +49,22 @@ struct Totals {
 };
 
 void check_volume(const std::string& path, Totals& totals) {
-    const auto result = check_answers(
-        [&](tetralight_error* error) { return open_by_path(path + ".probes", error); },
-        read_words(path + ".cases"));
+    const std::vector<uint32_t> words = read_words(path + ".cases");
+    const std::string file = path + ".probes";
+    for (const OpenVolume& open : {by_path(file), from_memory(file)}) {
+        const auto result = check_answers(open, words);
+        totals.answers += result.answer_count;
+        if (result.passed() && result.answer_count > 0) continue;
+        ++totals.wrong;
+        std::printf("%s: %u answers, which differ by up to %g times the tolerance; %s\n",
+                    path.c_str(), result.answer_count, result.worst, result.failure.c_str());
+    }
+    const auto volume = open_probe_file(file);
+    if (!volume || !cells_are_the_same(volume->view())) {
+        ++totals.wrong;
+        std::printf("%s: its positions are joined by other cells\n", path.c_str());
+    }
     ++totals.volumes;
-    totals.answers += result.answer_count;
-    if (result.passed()) return;
-    ++totals.wrong;
-    std::printf("%s: %s (differs by %g of the tolerance)\n", path.c_str(), result.failure.c_str(),
-                result.worst);
 }
 
 int run(int count, char** arguments) {
@@ -57,8 +77,12 @@ int run(int count, char** arguments) {
     for (int i = 3; i < count; ++i) {
         check_volume(std::string(arguments[2]) + "/" + arguments[i], totals);
     }
-    std::printf("%u answers of %u volumes, files: %s\n", totals.answers, totals.volumes,
-                totals.wrong == 0 ? "all right" : "WRONG");
+    if (totals.wrong > 0) {
+        std::printf("%u checks failed\n", totals.wrong);
+    } else {
+        std::printf("files, cells, %u answers of %u volumes by path and from memory: right\n",
+                    totals.answers, totals.volumes);
+    }
     return totals.wrong == 0 ? 0 : 1;
 }
 

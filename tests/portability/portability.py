@@ -20,6 +20,7 @@ import write_cases
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "portability"
 VECTORS = BUILD / "vectors"
+MOST_SECONDS = 600  # of a program
 
 
 @dataclasses.dataclass
@@ -44,7 +45,8 @@ PLATFORMS = [
     Platform("linux", "Linux, x86-64, Highway", "g++"),
     Platform("mingw64", "Windows, 64 bits", "x86_64-w64-mingw32-g++-posix", toolchain="mingw64",
              program="tests/portability/portability_test.exe", runner=("/usr/lib/wine/wine64",),
-             environment={"WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all", "DISPLAY": ""}),
+             environment={"WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all", "DISPLAY": "",
+                          "WINEDLLOVERRIDES": "mscoree,mshtml="}),
     Platform("mingw32", "Windows, 32 bits", "i686-w64-mingw32-g++-posix", toolchain="mingw32",
              program="tests/portability/portability_test.exe", runner=None),
 ]
@@ -96,17 +98,29 @@ def run_program(platform, folder, names):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
     command = [*platform.runner, folder / platform.program, "work", VECTORS, *names]
-    ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
-                           capture_output=True, timeout=600)
+    try:
+        ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
+                               capture_output=True, timeout=MOST_SECONDS)
+    except subprocess.TimeoutExpired:
+        return False, f"did not end in {MOST_SECONDS} s"
     lines = ended.stdout.strip().splitlines() or [f"ended with code {ended.returncode}"]
     if ended.returncode != 0:
         print(ended.stdout, ended.stderr, sep="", file=sys.stderr)
     return ended.returncode == 0, lines[-1]
 
 
+def missing_command(platform):
+    """The name of a command that is not installed; None if all are."""
+    for command in (platform.compiler, *(platform.runner or ())[:1]):
+        if not shutil.which(command):
+            return command
+    return None
+
+
 def try_platform(platform, names):
     outcome = Outcome()
-    if not shutil.which(platform.compiler):
+    if missing := missing_command(platform):
+        print(f"{missing} is not installed", file=sys.stderr)
         return outcome
     outcome.compiler = compiler_version(platform)
     folder = BUILD / platform.name
