@@ -26,7 +26,7 @@ from tetralight.errors import (
     Unsupported,
 )
 from tetralight.light import Light
-from tetralight.lightmaps import Lightmaps, open_lightmaps
+from tetralight.lightmaps import NO_PAGE, Lightmaps, open_lightmaps
 from tetralight.lppv import Lppv
 from tetralight.picture import write_png
 from tetralight.reflections import Reflections, open_reflections
@@ -36,6 +36,7 @@ __version__ = _version()
 
 __all__ = [
     "NO_CELL",
+    "NO_PAGE",
     "BadValue",
     "Cancelled",
     "Closed",

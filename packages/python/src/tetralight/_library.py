@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any
+from typing import Any, Union
 
 from tetralight import _declarations as c
 from tetralight import errors
@@ -91,3 +91,15 @@ def opened(function: Any, free: Any, *arguments: Any) -> Handle:
     call(function, *arguments, ctypes.byref(pointer))
     assert pointer.value is not None
     return Handle(pointer.value, free)
+
+
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
+
+
+def opened_file(open_path: Any, open_memory: Any, free: Any, source: Source) -> tuple[Handle, str]:
+    """The handle of a file or of its bytes, which are copied, and its name for messages."""
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        content = bytes(source)
+        return opened(open_memory, free, content, len(content)), "memory"
+    name = os.fspath(source)
+    return opened(open_path, free, os.fsencode(name)), name

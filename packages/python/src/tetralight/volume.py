@@ -15,7 +15,7 @@ from tetralight import lppv as proxy
 from tetralight._arrays import AnyArray, FloatArray, three
 from tetralight._contents import Contents
 from tetralight._gate import Gate
-from tetralight._library import Handle, call, library, opened
+from tetralight._library import Handle, Source, call, library, opened_file
 from tetralight.errors import BadValue, Closed, NotThere
 from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
@@ -313,11 +313,7 @@ class Volume:
         return mesh.meshio_mesh(self)
 
 
-def open(source: str | os.PathLike[str] | bytes | bytearray | memoryview) -> Volume:
+def open(source: Source) -> Volume:
     """Opens a .probes file, or its bytes, and verifies all of it. Bytes are copied."""
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        content = bytes(source)
-        handle = opened(library.tetralight_open_memory, library.tetralight_close, content, len(content))
-        return Volume(handle, "memory")
-    name = os.fspath(source)
-    return Volume(opened(library.tetralight_open, library.tetralight_close, os.fsencode(name)), name)
+    files = library.tetralight_open, library.tetralight_open_memory
+    return Volume(*opened_file(*files, library.tetralight_close, source))
