@@ -28,7 +28,7 @@ from tetralight.errors import (
 from tetralight.light import Light
 from tetralight.lightmaps import NO_PAGE, Lightmaps, open_lightmaps
 from tetralight.lppv import Lppv
-from tetralight.picture import write_png
+from tetralight.picture import tone_mapped, write_png
 from tetralight.reflections import Reflections, open_reflections
 from tetralight.volume import Volume, open
 
@@ -55,5 +55,6 @@ __all__ = [
     "open",
     "open_lightmaps",
     "open_reflections",
+    "tone_mapped",
     "write_png",
 ]

@@ -13,6 +13,7 @@ from tetralight import _declarations as c
 from tetralight import errors
 
 NAME = "libtetralight.so.0"
+HIGHWAY = "libhwy.so.1"
 
 ERRORS: dict[int, tuple[type[errors.Error], str]] = {
     c.BAD_POINTER: (errors.BadValue, "bad_value"),
@@ -38,9 +39,17 @@ def library_path() -> str:
     return beside if os.path.exists(beside) else NAME
 
 
+def load_dependency(path: str) -> None:
+    """The wheel may hold Highway, too. Once it is loaded, the library finds it by its name."""
+    beside = os.path.join(os.path.dirname(path), HIGHWAY)
+    if os.path.exists(beside):
+        ctypes.CDLL(beside)
+
+
 def load() -> ctypes.CDLL:
     path = library_path()
     try:
+        load_dependency(path)
         loaded = ctypes.CDLL(path)
         c.declare(loaded)
     except OSError as error:
