@@ -114,3 +114,14 @@ class Relight(unittest.TestCase):
                 volume.relight(**light)
         with self.assertRaises(tetralight.NotThere):
             tetralight.open(vector_path("space")).relight(sky=1)
+
+
+class Lights(unittest.TestCase):
+    def test_are_those_of_the_scene(self):
+        volume = tetralight.open(baked("bake", ".probes", "--samples", "8", "--layers", "sky,sun,transfer"))
+        lights = volume.lights
+        self.assertIn("directional", {light.type for light in lights})
+        for light in lights:
+            self.assertAlmostEqual(float(np.linalg.norm(light.direction)), 1, 4)
+            self.assertIn(light.mode, ("mixed", "baked", "realtime"))
+        self.assertEqual(tetralight.open(vector_path("space")).lights, [])

@@ -30,6 +30,7 @@ from tetralight.lightmaps import NO_PAGE, Lightmaps, open_lightmaps
 from tetralight.lppv import Lppv
 from tetralight.picture import tone_mapped, write_png
 from tetralight.reflections import Reflections, open_reflections
+from tetralight.scene_light import SceneLight
 from tetralight.volume import Volume, open
 
 __version__ = _version()
@@ -49,6 +50,7 @@ __all__ = [
     "NotThere",
     "OutOfMemory",
     "Reflections",
+    "SceneLight",
     "Unavailable",
     "Unsupported",
     "Volume",

@@ -21,6 +21,7 @@ from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
 from tetralight.lppv import Lppv
 from tetralight.picture import Pixels, png, probes_from_above, tone_mapped
+from tetralight.scene_light import SceneLight, scene_light
 from tetralight.sh import mean_irradiance, sky_coefficients
 
 Result = TypeVar("Result")
@@ -58,6 +59,7 @@ class Volume:
         """True if the volume knows which walls hide its probes."""
         self.can_relight_sky = bool(details.can_relight_sky)
         self.can_relight_sun = bool(details.can_relight_sun)
+        self._light_count: int = details.light_count
         self._contents = Contents(handle, self.probe_count, tuple(details.world_origin))
 
     # Opening and closing
@@ -217,7 +219,18 @@ class Volume:
         finally:
             self._gate.leave()
 
-    # Layers
+    # Lights and layers
+
+    @property
+    def lights(self) -> list[SceneLight]:
+        """The lights of the scene. Of mixed lights the probes hold the bounces: the caller adds the direct
+        light."""
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            return [scene_light(handle.pointer, index) for index in range(self._light_count)]
+        finally:
+            self._gate.leave()
 
     @property
     def layers(self) -> dict[str, float]:
