@@ -19,7 +19,7 @@ from ctypes import (
 )
 from typing import Any
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
 NO_CELL = 0xffffffff
 NORMAL_OFFSET = 0.1
 SHADER_ARRAY_COUNT = 7
