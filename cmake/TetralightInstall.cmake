@@ -38,11 +38,17 @@ if(TARGET tetralight_cli)
   endforeach()
 endif()
 
+# The Python package, which loads the shared library of the system. Wheels have it inside (packages/python).
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/packages/python/src/tetralight OPTIONAL COMPONENT python EXCLUDE_FROM_ALL
+        DESTINATION lib/python3/dist-packages
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN __pycache__ EXCLUDE)
+
 # The service, and its page if it is built.
 if(TARGET tetralight_cli AND TETRALIGHT_BUILD_SERVER)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT viewer
           DESTINATION ${CMAKE_INSTALL_DATADIR}/tetralight/viewer)
-  install(FILES ${PROJECT_SOURCE_DIR}/packages/systemd/tetralight.service COMPONENT server
+  # It names /usr/bin, so it is for packages.
+  install(FILES ${PROJECT_SOURCE_DIR}/packages/systemd/tetralight.service COMPONENT server EXCLUDE_FROM_ALL
           DESTINATION lib/systemd/system)
 endif()
 

@@ -41,6 +41,25 @@ set(dev_depends libglm-dev)
 if(hwy_FOUND)
   string(APPEND dev_depends ", libhwy-dev")
 endif()
+if(TARGET tetralight_shared)
+  # CPack has dpkg run ldconfig, and writes the file shlibs by which other packages depend on this one.
+  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+  debian_package(runtime libtetralight0 libs "Baked light probes at run time, as a shared library
+The C API of Tetralight, for programs in any language that locate, interpolate
+and shade with the light probes of .probes files.")
+  set(this_library "libtetralight0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+  string(PREPEND dev_depends "${this_library}, ")
+  if(EXISTS ${PROJECT_SOURCE_DIR}/packages/python/src/tetralight)
+    debian_package(python python3-tetralight python "Baked light probes in Python, with NumPy
+The module tetralight opens .probes files, answers millions of queries on all
+processors, relights, and shows probes. It runs the command to bake."
+      PACKAGE_ARCHITECTURE all
+      PACKAGE_DEPENDS "${this_library}, python3, python3-numpy"
+      PACKAGE_RECOMMENDS tetralight)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${debian}/python/postinst ${debian}/python/prerm)
+  endif()
+endif()
 debian_package(dev libtetralight-dev libdevel "Baked light probes at run time, for programs that are built
 Libraries, headers and shaders that locate, interpolate and shade with the
 light probes of .probes files, for C++20, C99, GLSL and HLSL."

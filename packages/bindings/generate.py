@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the declarations of the C API for Rust (packages/rust) and C# (packages/csharp).
+"""Writes the declarations of the C API for Rust (packages/rust), C# (packages/csharp) and Python
+(packages/python).
 
 generate.py                  writes the files
 generate.py --check          fails if a file is not what would be written
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import c_header
 import csharp
+import python
 import rust
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -35,6 +37,7 @@ def generated(header):
         PACKAGES / "rust/Cargo.toml": rust.cargo(version),
         PACKAGES / "rust/src/lib.rs": rust.crate(header),
         PACKAGES / "csharp/Tetralight.cs": csharp.source(header, abi),
+        PACKAGES / "python/src/tetralight/_declarations.py": python.module(header, version),
     }
 
 

@@ -54,6 +54,7 @@ class Tetralight(ConanFile):
         CMakeDeps(self).generate()
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables["TETRALIGHT_BUILD_OFFLINE"] = False
+        toolchain.cache_variables["TETRALIGHT_BUILD_SHARED"] = False
         toolchain.cache_variables["TETRALIGHT_BUILD_TESTS"] = False
         toolchain.cache_variables["TETRALIGHT_INSTALL"] = True
         toolchain.generate()

@@ -120,7 +120,8 @@ def write_documents(package, root, options):
     (folder / "copyright").write_text(copyright_text(package))
     write_compressed(folder / "changelog.gz", (SOURCES / "CHANGELOG.md").read_bytes())
     write_compressed(folder / "changelog.Debian.gz", debian_changelog(options).encode())
-    sbom = make_sbom(package, root, f"{options.version}-{options.release}")
+    day = released(options.version).strftime("%Y-%m-%dT%H:%M:%SZ")
+    sbom = make_sbom(package, root, f"{options.version}-{options.release}", day)
     (folder / "sbom.spdx.json").write_text(json.dumps(sbom, indent=1, ensure_ascii=False) + "\n")
 
 

@@ -17,9 +17,13 @@ mkdir "$copy/packages"
 cp "$project/CMakeLists.txt" "$project/LICENSE" "$copy"
 cp -R "$project/packages/python" "$copy/packages"
 find "$copy" -name __pycache__ -prune -exec rm -rf {} +
-cp "$library" "$copy/libtetralight.so.0"
-strip --strip-unneeded "$copy/libtetralight.so.0" 2>/dev/null || true
-TETRALIGHT_LIBRARY=$copy/libtetralight.so.0 "$python" -m build --no-isolation --wheel --outdir "$copy/dist" \
+mkdir "$copy/libraries"
+cp "$library" "$copy/libraries/libtetralight.so.0"
+# Highway, which chooses the vector code for the processor, is not on every machine.
+highway=$(ldd "$library" | sed -n 's/.*libhwy\.so\.1 => \(\/[^ ]*\).*/\1/p')
+[ -z "$highway" ] || cp -L "$highway" "$copy/libraries/libhwy.so.1"
+strip --strip-unneeded "$copy"/libraries/* 2>/dev/null || true
+TETRALIGHT_LIBRARY=$copy/libraries/libtetralight.so.0 "$python" -m build --no-isolation --wheel --outdir "$copy/dist" \
     "$copy/packages/python" >"$copy/log" 2>&1 || { cat "$copy/log" >&2; exit 1; }
 mv "$copy"/dist/*.whl "$folder"
 ls "$folder/$(basename "$(cd "$copy" && sed -n 's/^Successfully built \(.*\.whl\).*/\1/p' log | tail -1)")"

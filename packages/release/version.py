@@ -23,6 +23,8 @@ PLACES = [
     ("packages/vcpkg/tetralight/vcpkg.json", rf'^  "version": "({NUMBER})"', None),
     ("packages/blender/tetralight/__init__.py", r'^    "version": \((\d+, \d+, \d+)\)', "tuple"),
     ("packages/blender/tetralight/blender_manifest.toml", rf'^version = "({NUMBER})"$', None),
+    ("packages/python/src/tetralight/_declarations.py", rf'^VERSION = "({NUMBER})"$', None),
+    ("packages/rust/Cargo.toml", rf'^version = "({NUMBER})"$', None),
     ("packages/js/README.md", rf"npm pack +# tetralight-({NUMBER})\.tgz", None),
     ("packages/js/README.md", rf"packages/js/tetralight-({NUMBER})\.tgz$", None),
 ]

@@ -132,7 +132,8 @@ def add_shared_libraries(root, package, elements, relations):
         relations.append(relation("DYNAMIC_LINK", package["SPDXID"], found["SPDXID"], comment))
 
 
-def make_sbom(name, root, version):
+def make_sbom(name, root, version, created="1970-01-01T00:00:00Z"):
+    """`created` is the day of the release, so that the same files give the same bytes."""
     package = element(name, version, license_of(name))
     elements, relations = [package], [relation("DESCRIBES", "SPDXRef-DOCUMENT", package["SPDXID"])]
     add_shared_libraries(root, package, elements, relations)
@@ -145,7 +146,7 @@ def make_sbom(name, root, version):
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
         "name": f"{name}-{version}",
         "documentNamespace": f"https://spdx.org/spdxdocs/{name}-{version}-{hashlib.sha256(content).hexdigest()}",
-        "creationInfo": {"created": "1970-01-01T00:00:00Z", "creators": ["Tool: tetralight-make_sbom"]},
+        "creationInfo": {"created": created, "creators": ["Tool: tetralight-make_sbom"]},
         "packages": elements, "relationships": relations}
 
 

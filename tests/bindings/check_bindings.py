@@ -129,7 +129,7 @@ def check_current(sources):
     generate(sources, "--check")
     # A header that changes makes them old.
     with tempfile.TemporaryDirectory() as folder:
-        for part in ("packages/bindings", "packages/rust", "packages/csharp", "runtime"):
+        for part in ("packages/bindings", "packages/rust", "packages/csharp", "packages/python", "runtime"):
             shutil.copytree(Path(sources, part), Path(folder, part))
         shutil.copy(Path(sources, "CMakeLists.txt"), folder)
         header = Path(folder, "runtime/tetralight.h")

@@ -251,10 +251,11 @@ def check_debian(prefix, ship):
         packages = list(Path(folder).glob("libtetralight-dev_*.deb"))
         assert len(packages) == 1, listing(folder)
         root = Path(folder) / "root"
-        run(["dpkg-deb", "-x", str(packages[0]), str(root)], folder, prefix)
+        for package in Path(folder).glob("libtetralight*.deb"):
+            run(["dpkg-deb", "-x", str(package), str(root)], folder, prefix)
         files, installed = set(listing(root / "usr")), set(listing(prefix))
         added = {name for name in files - installed
-                 if not name.startswith(("share/doc/libtetralight-dev/", "share/lintian/"))}
+                 if not name.startswith(("share/doc/libtetralight", "share/lintian/"))}
         assert installed <= files and not added, [installed - files, added]
         fields = run(["dpkg-deb", "-f", str(packages[0])], folder, prefix)
         assert "Package: libtetralight-dev" in fields and "libglm-dev" in fields, fields

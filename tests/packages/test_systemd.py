@@ -52,8 +52,8 @@ class Needs(unittest.TestCase):
         self.assertNotIn("~@resources", allowed)  # setpriority, prlimit64
 
     def test_files_of_the_kernel_that_it_reads_stay_visible(self):
-        """base/landlock.cpp names them: all of /proc, not only processes."""
-        self.assertIn('"/proc/meminfo"', (SOURCES / "base/landlock.cpp").read_text())
+        """base/process/landlock.cpp names them: all of /proc, not only processes."""
+        self.assertIn('"/proc/meminfo"', (SOURCES / "base/process/landlock.cpp").read_text())
         self.assertNotIn("ProcSubset", settings())
 
     def test_a_program_that_takes_too_much_memory_does_not_end_the_server(self):

@@ -24,6 +24,14 @@ done
 cc -std=c99 -pedantic -Wall -Werror light.c -o light $(pkg-config --cflags --libs tetralight)
 ./light court.probes 0 1.5 0 >light.txt
 
+if [ -e "$root/usr/lib/python3/dist-packages/tetralight" ]; then
+    # Debian's Python, which has Debian's NumPy.
+    PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c '
+import tetralight
+light = tetralight.open("court.probes").irradiance([[0, 1.5, 0]], (0, 1, 0))
+print(float(light[0][0]))' >python.txt
+fi
+
 for page in tetralight tetralight-bake tetralight-serve tetralight-cgal tetralight-tetgen; do
     gzip -t "$root/usr/share/man/man1/$page.1.gz"
 done

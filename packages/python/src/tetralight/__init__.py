@@ -26,16 +26,18 @@ from tetralight.errors import (
     Unsupported,
 )
 from tetralight.light import Light
-from tetralight.lightmaps import Lightmaps, open_lightmaps
+from tetralight.lightmaps import NO_PAGE, Lightmaps, open_lightmaps
 from tetralight.lppv import Lppv
-from tetralight.picture import write_png
+from tetralight.picture import tone_mapped, write_png
 from tetralight.reflections import Reflections, open_reflections
+from tetralight.scene_light import SceneLight
 from tetralight.volume import Volume, open
 
 __version__ = _version()
 
 __all__ = [
     "NO_CELL",
+    "NO_PAGE",
     "BadValue",
     "Cancelled",
     "Closed",
@@ -48,11 +50,13 @@ __all__ = [
     "NotThere",
     "OutOfMemory",
     "Reflections",
+    "SceneLight",
     "Unavailable",
     "Unsupported",
     "Volume",
     "open",
     "open_lightmaps",
     "open_reflections",
+    "tone_mapped",
     "write_png",
 ]

@@ -66,7 +66,9 @@ class Contents:
         if view is not None:
             return view
         halves = self._view(c.ARRAY_HALVES, (32,), np.float16)
-        return read_only(np.ones(self._probe_count, np.float32)) if halves is None else halves[:, 31]
+        if halves is None:
+            return read_only(np.ones(self._probe_count, np.float32))
+        return read_only(halves[:, 31].astype(np.float32))
 
     @functools.cached_property
     def standard_error(self) -> AnyArray:

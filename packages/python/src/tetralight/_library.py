@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any
+from typing import Any, Union
 
 from tetralight import _declarations as c
 from tetralight import errors
 
 NAME = "libtetralight.so.0"
+HIGHWAY = "libhwy.so.1"
 
 ERRORS: dict[int, tuple[type[errors.Error], str]] = {
     c.BAD_POINTER: (errors.BadValue, "bad_value"),
@@ -38,21 +39,26 @@ def library_path() -> str:
     return beside if os.path.exists(beside) else NAME
 
 
+def load_dependency(path: str) -> None:
+    """The wheel may hold Highway, too. Once it is loaded, the library finds it by its name."""
+    beside = os.path.join(os.path.dirname(path), HIGHWAY)
+    if os.path.exists(beside):
+        ctypes.CDLL(beside)
+
+
 def load() -> ctypes.CDLL:
     path = library_path()
     try:
+        load_dependency(path)
         loaded = ctypes.CDLL(path)
         c.declare(loaded)
     except OSError as error:
         raise ImportError(f"{path}: the library of tetralight cannot be loaded: {error}") from error
     except AttributeError as error:
         raise ImportError(f"{path}: not the library of this version of tetralight: {error}") from error
-    version = loaded.tetralight_version() // 100
-    if version != c.VERSION_MAJOR * 100 + c.VERSION_MINOR:
-        raise ImportError(
-            f"{path}: the library has version {loaded.tetralight_version_string().decode()}, "
-            f"the package needs {c.VERSION_MAJOR}.{c.VERSION_MINOR}"
-        )
+    found = loaded.tetralight_version_string().decode()
+    if found.split(".")[:2] != c.VERSION.split(".")[:2]:
+        raise ImportError(f"{path}: the library has version {found}, the package needs {c.VERSION}")
     return loaded
 
 
@@ -91,3 +97,15 @@ def opened(function: Any, free: Any, *arguments: Any) -> Handle:
     call(function, *arguments, ctypes.byref(pointer))
     assert pointer.value is not None
     return Handle(pointer.value, free)
+
+
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
+
+
+def opened_file(open_path: Any, open_memory: Any, free: Any, source: Source) -> tuple[Handle, str]:
+    """The handle of a file or of its bytes, which are copied, and its name for messages."""
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        content = bytes(source)
+        return opened(open_memory, free, content, len(content)), "memory"
+    name = os.fspath(source)
+    return opened(open_path, free, os.fsencode(name)), name

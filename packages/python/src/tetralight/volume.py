@@ -15,12 +15,13 @@ from tetralight import lppv as proxy
 from tetralight._arrays import AnyArray, FloatArray, three
 from tetralight._contents import Contents
 from tetralight._gate import Gate
-from tetralight._library import Handle, call, library, opened
+from tetralight._library import Handle, Source, call, library, opened_file
 from tetralight.errors import BadValue, Closed, NotThere
 from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
 from tetralight.lppv import Lppv
 from tetralight.picture import Pixels, png, probes_from_above, tone_mapped
+from tetralight.scene_light import SceneLight, scene_light
 from tetralight.sh import mean_irradiance, sky_coefficients
 
 Result = TypeVar("Result")
@@ -58,6 +59,7 @@ class Volume:
         """True if the volume knows which walls hide its probes."""
         self.can_relight_sky = bool(details.can_relight_sky)
         self.can_relight_sun = bool(details.can_relight_sun)
+        self._light_count: int = details.light_count
         self._contents = Contents(handle, self.probe_count, tuple(details.world_origin))
 
     # Opening and closing
@@ -217,7 +219,18 @@ class Volume:
         finally:
             self._gate.leave()
 
-    # Layers
+    # Lights and layers
+
+    @property
+    def lights(self) -> list[SceneLight]:
+        """The lights of the scene. Of mixed lights the probes hold the bounces: the caller adds the direct
+        light."""
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            return [scene_light(handle.pointer, index) for index in range(self._light_count)]
+        finally:
+            self._gate.leave()
 
     @property
     def layers(self) -> dict[str, float]:
@@ -313,11 +326,7 @@ class Volume:
         return mesh.meshio_mesh(self)
 
 
-def open(source: str | os.PathLike[str] | bytes | bytearray | memoryview) -> Volume:
+def open(source: Source) -> Volume:
     """Opens a .probes file, or its bytes, and verifies all of it. Bytes are copied."""
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        content = bytes(source)
-        handle = opened(library.tetralight_open_memory, library.tetralight_close, content, len(content))
-        return Volume(handle, "memory")
-    name = os.fspath(source)
-    return Volume(opened(library.tetralight_open, library.tetralight_close, os.fsencode(name)), name)
+    files = library.tetralight_open, library.tetralight_open_memory
+    return Volume(*opened_file(*files, library.tetralight_close, source))
