@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import json
+import math
 from typing import Any, Sequence
 
 import numpy as np
@@ -33,10 +34,10 @@ class Contents:
             call(library.tetralight_get_array, self._handle.pointer, which, ctypes.byref(array))
         except NotThere:
             return None
-        row_bytes = int(np.prod(row)) * np.dtype(dtype).itemsize
+        row_bytes = math.prod(row) * np.dtype(dtype).itemsize
         count = (array.size - row_bytes) // array.stride + 1
         item = np.dtype(dtype).itemsize
-        inner = [item * int(np.prod(row[axis + 1 :])) for axis in range(len(row))]
+        inner = [item * math.prod(row[axis + 1 :]) for axis in range(len(row))]
         return view_of(self._handle, array.data, (count, *row), dtype, (array.stride, *inner))
 
     def _text(self, which: int) -> str:
