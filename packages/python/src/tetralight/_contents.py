@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import ctypes
 import functools
-import json
 import math
 from typing import Any, Sequence
 
@@ -81,6 +80,8 @@ class Contents:
         return self._text(c.ARRAY_METADATA)
 
     def metadata(self) -> dict[str, Any]:
+        import json
+
         made: dict[str, Any] = json.loads(self._metadata or "{}")
         return made
 
