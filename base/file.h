@@ -26,6 +26,10 @@ class MappedFile {
   public:
     [[nodiscard]] static Result<MappedFile> open(const std::string& path);
 
+    /// A copy of the bytes of a file that is in memory, aligned to 64 bytes. Returns
+    /// out_of_resources if there is no memory for it.
+    [[nodiscard]] static Result<MappedFile> copy_of(std::span<const std::byte> bytes);
+
     /// Holds no bytes.
     MappedFile() = default;
     MappedFile(MappedFile&& other) noexcept;
@@ -35,13 +39,14 @@ class MappedFile {
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
 
     /// Gives back the memory of pages that were read; the next read of one maps it again. May run
-    /// beside readers.
+    /// beside readers. Does nothing for a copy.
     void release_pages() const noexcept;
 
   private:
     explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     std::span<const std::byte> bytes_;
+    bool is_copy_ = false;
 };
 
 }  // namespace tetralight

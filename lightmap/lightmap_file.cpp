@@ -58,6 +58,15 @@ Result<LightmapFile> open_lightmap_file(const std::string& path) {
     return file;
 }
 
+Result<LightmapFile> open_lightmap_memory(std::span<const std::byte> bytes) {
+    auto sections =
+        detail::copy_sections<LightmapsView>(kLightmapFileKind, bytes, kLightmapMembers);
+    if (!sections) return sections.error();
+    LightmapFile file = LightmapFileReader::open(std::move(*sections));
+    if (auto status = verify(file); !status) return status.error().in(detail::kMemoryName);
+    return file;
+}
+
 Status verify(const LightmapFile& file) {
     return LightmapFileReader::verify(file);
 }

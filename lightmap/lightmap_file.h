@@ -57,6 +57,11 @@ class LightmapFile {
 /// never a read out of range.
 [[nodiscard]] Result<LightmapFile> open_lightmap_file_lazy(const std::string& path);
 
+/// Opens a file that is in memory: copies the bytes and verifies all of them. Messages begin with
+/// "memory". Returns the errors of `open_lightmap_file`, and out_of_resources without memory for
+/// the copy.
+[[nodiscard]] Result<LightmapFile> open_lightmap_memory(std::span<const std::byte> bytes);
+
 /// The verification that `open_lightmap_file` does and `open_lightmap_file_lazy` does not; for a
 /// background thread.
 [[nodiscard]] Status verify(const LightmapFile& file);

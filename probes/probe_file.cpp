@@ -51,6 +51,14 @@ Result<ProbeFile> open_probe_file(const std::string& path) {
     return file;
 }
 
+Result<ProbeFile> open_probe_memory(std::span<const std::byte> bytes) {
+    auto sections = detail::copy_sections<ProbeVolumeView>(kProbeFileKind, bytes, kMembers);
+    if (!sections) return sections.error();
+    ProbeFile file = ProbeFileReader::open(std::move(*sections));
+    if (auto status = verify(file); !status) return status.error().in(detail::kMemoryName);
+    return file;
+}
+
 Status verify(const ProbeFile& file) {
     return ProbeFileReader::verify(file);
 }

@@ -61,6 +61,12 @@ class ProbeFile {
 /// result but never a read out of range.
 [[nodiscard]] Result<ProbeFile> open_probe_file_lazy(const std::string& path);
 
+/// Opens a file that is in memory: of an archive, of another file, received from a network. Copies
+/// the bytes, so that they may change or go, and verifies all of them. Messages begin with
+/// "memory". Returns the errors of `open_probe_file`, and out_of_resources without memory for the
+/// copy.
+[[nodiscard]] Result<ProbeFile> open_probe_memory(std::span<const std::byte> bytes);
+
 /// The verification that `open_probe_file` does and `open_probe_file_lazy` does not; for a
 /// background thread.
 [[nodiscard]] Status verify(const ProbeFile& file);

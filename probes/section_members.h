@@ -94,18 +94,37 @@ template <class View, class ForEachMember>
     return Error{ErrorCode::Corrupt, "info", "", "section \"info\" is missing"};
 }
 
+/// What messages about a file in memory begin with, in place of a path.
+inline constexpr const char* kMemoryName = "memory";
+
+/// Reads header and table of an open file only. Messages begin with its name.
+template <class View, class ForEachMember>
+[[nodiscard]] Result<MappedSections<View>> sections_of(const SectionFileKind& kind,
+                                                       Result<MappedFile> mapping,
+                                                       const std::string& name,
+                                                       ForEachMember for_each_member) {
+    if (!mapping) return mapping.error();
+    MappedSections<View> file;
+    file.mapping = std::move(*mapping);
+    const Status status = read_sections(kind, file.mapping.bytes(), file, for_each_member);
+    if (!status) return status.error().in(name);
+    return file;
+}
+
 /// Maps a file and reads its header and table only. Messages begin with the path.
 template <class View, class ForEachMember>
 [[nodiscard]] Result<MappedSections<View>> map_sections(const SectionFileKind& kind,
                                                         const std::string& path,
                                                         ForEachMember for_each_member) {
-    auto mapping = MappedFile::open(path);
-    if (!mapping) return mapping.error();
-    MappedSections<View> file;
-    file.mapping = std::move(*mapping);
-    const Status status = read_sections(kind, file.mapping.bytes(), file, for_each_member);
-    if (!status) return status.error().in(shown_path(path));
-    return file;
+    return sections_of<View>(kind, MappedFile::open(path), shown_path(path), for_each_member);
+}
+
+/// The same for a copy of a file that is in memory.
+template <class View, class ForEachMember>
+[[nodiscard]] Result<MappedSections<View>> copy_sections(const SectionFileKind& kind,
+                                                         std::span<const std::byte> bytes,
+                                                         ForEachMember for_each_member) {
+    return sections_of<View>(kind, MappedFile::copy_of(bytes), kMemoryName, for_each_member);
 }
 
 /// The checks that `map_sections` leaves out: checksums, then `verify(view)`, the meaning of every

@@ -246,11 +246,10 @@ Status check_written(const Reflections& reflections) {
 
 /// Builds a ReflectionFile.
 struct ReflectionFileReader {
-    static Result<ReflectionFile> open(const std::string& path) {
-        auto mapping = MappedFile::open(path);
+    static Result<ReflectionFile> open(Result<MappedFile> mapping, const std::string& name) {
         if (!mapping) return mapping.error();
         auto contents = read_contents(mapping->bytes());
-        if (!contents) return contents.error().in(shown_path(path));
+        if (!contents) return contents.error().in(name);
         ReflectionFile file;
         file.file_ = std::move(*mapping);
         file.probes_ = std::move(contents->probes);
@@ -288,7 +287,11 @@ std::vector<std::string_view> ReflectionFile::names() const {
 }
 
 Result<ReflectionFile> open_reflection_file(const std::string& path) {
-    return ReflectionFileReader::open(path);
+    return ReflectionFileReader::open(MappedFile::open(path), shown_path(path));
+}
+
+Result<ReflectionFile> open_reflection_memory(std::span<const std::byte> bytes) {
+    return ReflectionFileReader::open(MappedFile::copy_of(bytes), "memory");
 }
 
 std::vector<std::byte> reflection_file_bytes(const Reflections& reflections) {

@@ -45,6 +45,11 @@ class ReflectionFile {
 /// not_found, unavailable, out_of_resources. Messages begin with the path.
 [[nodiscard]] Result<ReflectionFile> open_reflection_file(const std::string& path);
 
+/// Opens a file that is in memory: copies the bytes and verifies all of them. Messages begin with
+/// "memory". Returns the errors of `open_reflection_file`, and out_of_resources without memory for
+/// the copy.
+[[nodiscard]] Result<ReflectionFile> open_reflection_memory(std::span<const std::byte> bytes);
+
 /// Writes reflection probes and verifies what was written; the old file stays whole on failure. The
 /// same probes give the same bytes. Returns invalid_argument if `verify` finds an error, if there
 /// are fewer or more names than probes (but not none), or if a name holds a control character or is

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <new>
 
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_open.h>
 #include <tetralight/runtime/detail/c_receivers.h>
 #include <tetralight/runtime/detail/c_volume.h>
 #include <tetralight/runtime/pack_instances.h>
@@ -31,6 +31,8 @@ using detail::check_walls;
 using detail::elements_of;
 using detail::file_error;
 using detail::finish;
+using detail::open_bytes;
+using detail::open_path;
 using detail::output_of;
 using detail::PositionBlocks;
 using detail::succeed;
@@ -38,21 +40,6 @@ using detail::view_of;
 
 static_assert(TETRALIGHT_NO_CELL == kNoIndex);
 static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
-
-using OpenFile = Result<ProbeFile> (*)(const std::string& path);
-
-tetralight_status open_with(OpenFile open, const char* path, tetralight_volume** volume,
-                            tetralight_error* error) {
-    CallError wrong = check_pointer("path", path);
-    if (!wrong) wrong = check_pointer("volume", volume);
-    if (wrong) return finish(wrong, error);
-    auto file = open(path);
-    if (!file) return finish(file_error(file.error()), error);
-    auto* opened = new (std::nothrow) tetralight_volume(std::move(*file));
-    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
-    *volume = opened;
-    return succeed(error);
-}
 
 CallError check_outside(const tetralight_batch& batch) {
     if (batch.outside > TETRALIGHT_AMBIENT) {
@@ -234,12 +221,17 @@ const char* tetralight_version_string(void) noexcept {
 
 tetralight_status tetralight_open(const char* path, tetralight_volume** volume,
                                   tetralight_error* error) noexcept {
-    return open_with(open_probe_file, path, volume, error);
+    return open_path(open_probe_file, path, "volume", volume, error);
+}
+
+tetralight_status tetralight_open_memory(const void* bytes, size_t size, tetralight_volume** volume,
+                                         tetralight_error* error) noexcept {
+    return open_bytes(open_probe_memory, bytes, size, "volume", volume, error);
 }
 
 tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
                                        tetralight_error* error) noexcept {
-    return open_with(open_probe_file_lazy, path, volume, error);
+    return open_path(open_probe_file_lazy, path, "volume", volume, error);
 }
 
 tetralight_status tetralight_verify(const tetralight_volume* volume,

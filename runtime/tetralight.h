@@ -21,14 +21,16 @@
  * and short buffers are reported as statuses. The caller guarantees that every other pointer leads
  * to memory of the size that it states. No exception leaves a call.
  *
- * Memory: queries and packing do not allocate. The calls that need much memory (recombine,
- * fill_lppv, make_shader_volume) first ask for all of it, and return TETRALIGHT_OUT_OF_MEMORY if
- * the system refuses. The program still ends in three cases: if a message or another small piece
- * (below 64 KiB a call) cannot be allocated, if the system promises more memory than it has, and if
- * another thread takes the memory in between (docs/decisions/0037-memory-through-the-c-api.md).
+ * Memory: queries and packing do not allocate. The calls that need much memory (open_memory,
+ * recombine, relight, fill_lppv, make_shader_volume) first ask for all of it, and return
+ * TETRALIGHT_OUT_OF_MEMORY if the system refuses. The program still ends in three cases: if a
+ * message or another small piece (below 64 KiB a call) cannot be allocated, if the system promises
+ * more memory than it has, and if another thread takes the memory in between
+ * (docs/decisions/0037-memory-through-the-c-api.md).
  *
  * Threads: calls on different volumes are independent. Calls that take a `const` volume may run on
- * one volume at the same time. The others (recombine, close) must run alone on their volume.
+ * one volume at the same time. The others (recombine, relight, close) must run alone on their
+ * volume.
  *
  * Space is right-handed, Y up, in metres; light is linear Rec.709 (docs/conventions.md). */
 
@@ -248,6 +250,13 @@ TETRALIGHT_API tetralight_status tetralight_open(const char* path, tetralight_vo
 TETRALIGHT_API tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** Opens a file that is in memory: of an archive or an asset bundle, from a network. Copies the
+ * bytes, so that they may change or go after the call, and verifies all of them. `bytes` need not
+ * be aligned. Messages begin with "memory". Close `*volume` after use. */
+TETRALIGHT_API tetralight_status
+tetralight_open_memory(const void* bytes, size_t size, tetralight_volume** volume,
+                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
 /** Verifies all of a volume that `tetralight_open_lazy` has opened; for a background thread. */
 TETRALIGHT_API tetralight_status tetralight_verify(const tetralight_volume* volume,
                                                    tetralight_error* error) TETRALIGHT_NOEXCEPT;
@@ -263,12 +272,171 @@ TETRALIGHT_API tetralight_status tetralight_get_layer(const tetralight_volume* v
                                                       uint32_t index, tetralight_layer* layer,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** The arrays of a volume. */
+typedef enum tetralight_volume_array {
+    /** Three floats a probe, relative to `tetralight_details.world_origin`. */
+    TETRALIGHT_ARRAY_POSITIONS = 0,
+    /** Three doubles a probe: the world positions that were tetrahedralized. */
+    TETRALIGHT_ARRAY_EXACT_POSITIONS = 1,
+    /** 27 floats a probe: TETRALIGHT_SH_COEFFICIENTS. */
+    TETRALIGHT_ARRAY_IRRADIANCE = 2,
+    /** 32 halves a probe: 27 coefficients divided by `tetralight_details.half_scale`, four of
+     * occlusion, validity. Queries read these if they are there. */
+    TETRALIGHT_ARRAY_HALVES = 3,
+    /** Four floats a probe, 1 = lit. */
+    TETRALIGHT_ARRAY_OCCLUSION = 4,
+    /** One float a probe: the fraction of its rays that hit no back face. */
+    TETRALIGHT_ARRAY_VALIDITY = 5,
+    /** One float a probe: the relative standard error of its irradiance; 0 = not known. */
+    TETRALIGHT_ARRAY_STANDARD_ERROR = 6,
+    /** One float a probe: metres to the nearest surface; can be infinite. */
+    TETRALIGHT_ARRAY_SURFACE_DISTANCE = 7,
+    /** Three floats a probe, metres: from the probe to where its rays start. */
+    TETRALIGHT_ARRAY_VIRTUAL_OFFSET = 8,
+    /** One uint32_t a probe. Not 0: its light is that of the valid probes around it. */
+    TETRALIGHT_ARRAY_DILATED = 9,
+    /** One uint32_t a probe, bit i: it lights objects on rendering layer i. */
+    TETRALIGHT_ARRAY_RENDERING_LAYERS = 10,
+    /** Four uint32_t a cell: its probes, TETRALIGHT_NO_CELL in unused places. */
+    TETRALIGHT_ARRAY_CELL_VERTICES = 11,
+    /** Four uint32_t a cell: the cell opposite each of its vertices. */
+    TETRALIGHT_ARRAY_CELL_NEIGHBORS = 12,
+    /** Nine floats a cell outside the hull: the unit rays along which its vertices extend. */
+    TETRALIGHT_ARRAY_HULL_RAYS = 13,
+    /** Three uint32_t a source: group, index in the group, probe or TETRALIGHT_NO_CELL. */
+    TETRALIGHT_ARRAY_SOURCES = 14,
+    /** 27 floats a probe, layer after layer, at weight 1. */
+    TETRALIGHT_ARRAY_LAYER_IRRADIANCE = 15,
+    /** One float a probe, layer after layer: the relative standard error; 0 = not known. */
+    TETRALIGHT_ARRAY_LAYER_ERRORS = 16,
+    /** 48 floats: the sky, as `tetralight_relight_sky` takes it. */
+    TETRALIGHT_ARRAY_SKY = 17,
+    /** Text, one name a line, each ended by a line feed. */
+    TETRALIGHT_ARRAY_GROUP_NAMES = 18,
+    TETRALIGHT_ARRAY_LIGHT_NAMES = 19,
+    TETRALIGHT_ARRAY_LAYER_NAMES = 20,
+    /** Text: how the volume was made, a JSON object. */
+    TETRALIGHT_ARRAY_METADATA = 21
+} tetralight_volume_array;
+
+/** An array of a volume without a copy, `which` a tetralight_volume_array. `stride` is not 0.
+ * Valid until a call that changes the volume (recombine, relight, close; of joined volumes commit).
+ * Returns TETRALIGHT_NOT_THERE if the array is empty: files can hold light as floats, as halves or
+ * both. */
+TETRALIGHT_API tetralight_status tetralight_get_array(const tetralight_volume* volume,
+                                                      uint32_t which, tetralight_const_array* array,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** More about a volume. */
+typedef struct tetralight_details {
+    /** The world position that TETRALIGHT_ARRAY_POSITIONS are relative to. */
+    double world_origin[3];
+    /** The box of the probes, world space; all 0 without probes. */
+    double low[3], high[3];
+    /** 27 floats: the light of positions without a probe. */
+    float ambient[27];
+    /** What TETRALIGHT_ARRAY_HALVES are multiplied by; 0 if they are not there. */
+    float half_scale;
+    /** 1 if the volume knows which walls hide its probes, else 0. */
+    uint32_t knows_walls;
+    /** 1 if `tetralight_relight_sky`, `tetralight_relight_sun` can change it, else 0. */
+    uint32_t can_relight_sky, can_relight_sun;
+    /** Lights of the scene, for `tetralight_get_scene_light`. */
+    uint32_t light_count;
+} tetralight_details;
+
+/** Cost: one pass over the positions. */
+TETRALIGHT_API tetralight_status
+tetralight_get_details(const tetralight_volume* volume, tetralight_details* details,
+                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The types of lights (probes/light.h). */
+typedef enum tetralight_light_type {
+    TETRALIGHT_LIGHT_DIRECTIONAL = 0,
+    TETRALIGHT_LIGHT_POINT = 1,
+    TETRALIGHT_LIGHT_SPOT = 2,
+    TETRALIGHT_LIGHT_RECTANGLE = 3,
+    TETRALIGHT_LIGHT_DISC = 4
+} tetralight_light_type;
+
+/** Which part of a light the probes hold. The caller adds the rest. */
+typedef enum tetralight_light_mode {
+    /** Its bounces. */
+    TETRALIGHT_LIGHT_MIXED = 0,
+    /** All of it. */
+    TETRALIGHT_LIGHT_BAKED = 1,
+    /** Nothing. */
+    TETRALIGHT_LIGHT_REALTIME = 2
+} tetralight_light_mode;
+
+/** How light falls off with distance (probes/light.h). */
+typedef enum tetralight_light_falloff {
+    TETRALIGHT_FALLOFF_GLTF = 0,
+    TETRALIGHT_FALLOFF_INVERSE_SQUARE_RANGE = 1,
+    TETRALIGHT_FALLOFF_LINEAR = 2,
+    TETRALIGHT_FALLOFF_LEGACY = 3
+} tetralight_light_falloff;
+
+/** A light of the scene, in the units of glTF; world space. */
+typedef struct tetralight_scene_light {
+    /** Ends with '\0'; a longer name is truncated. */
+    char name[128];
+    /** A tetralight_light_type, _light_mode and _light_falloff. */
+    uint32_t type, mode, falloff;
+    /** Its channel of the probes' occlusion, 0 to 3, or TETRALIGHT_NO_CELL. */
+    uint32_t channel;
+    /** The weight of its layer; 1 = as baked. */
+    float weight;
+    /** Linear RGB times intensity: lux for directional lights, candela for the others. */
+    float intensity[3];
+    float position[3];
+    /** The unit vector along which it shines. */
+    float direction[3];
+    /** Metres; 0 = without end. */
+    float range;
+    /** Cosines of the half angles of a spot light's cone. */
+    float cos_inner_cone, cos_outer_cone;
+    /** Metres; of directional lights half the angle in the sky, radians. */
+    float radius;
+    /** Of rectangles: the unit vector along the width, and metres. */
+    float tangent[3];
+    float width, height;
+} tetralight_scene_light;
+
+/** Returns TETRALIGHT_NOT_THERE if there is no such light. */
+TETRALIGHT_API tetralight_status tetralight_get_scene_light(
+    const tetralight_volume* volume, uint32_t index, tetralight_scene_light* light,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
 /** Replaces the light of the volume by the sum of its layers times these weights: one a layer, >=
  * 0. Must not run at the same time as another call on this volume. Cost: one pass over all layers.
  * Memory: that of the probes' light. Existing shader volumes and proxy volumes keep their light. */
 TETRALIGHT_API tetralight_status tetralight_recombine(tetralight_volume* volume,
                                                       const float* weights, size_t weight_count,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Replaces the sky: layer "sky" becomes the light that the probes transfer from it, and the light
+ * of the volume its sum with the other layers at their weights. `sky`: 48 floats, its radiance as
+ * 16 RGB coefficients of bands 0 to 3, L_i = integral of L Y_i (probes/distant_light.h);
+ * TETRALIGHT_ARRAY_SKY is the present one. Returns TETRALIGHT_NOT_THERE if the volume holds no
+ * transfer or no layer "sky". Memory and cost: a copy of the volume. */
+TETRALIGHT_API tetralight_status tetralight_relight_sky(
+    tetralight_volume* volume, const float* sky, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Moves the sun: layer "sun" becomes the light that the probes transfer from a sun that shines
+ * along the unit vector `direction` (three floats), with `irradiance` (three floats) on a surface
+ * that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its occlusion
+ * is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if the
+ * volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of the
+ * volume. */
+TETRALIGHT_API tetralight_status
+tetralight_relight_sun(tetralight_volume* volume, const float* direction, const float* irradiance,
+                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Writes the volume with its present light to a file, which replaces an older one only as a
+ * whole. Sections of the opened file that are not of the volume are left out. */
+TETRALIGHT_API tetralight_status tetralight_save(const tetralight_volume* volume, const char* path,
+                                                 tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** The light at one position (three floats), of the probes that no wall hides; a batch of one has
  * more options. `hint`, which may be NULL, gives the cell where the search starts and receives the
@@ -311,8 +479,8 @@ tetralight_joined_create(tetralight_joined** joined, tetralight_error* error) TE
 /** Destroys `joined` and its volume; does nothing if it is NULL. */
 TETRALIGHT_API void tetralight_joined_destroy(tetralight_joined* joined) TETRALIGHT_NOEXCEPT;
 
-/** Orders that a volume joins, under a name that no other has. It must neither be closed nor
- * recombined until it has left and `tetralight_joined_commit` was called. */
+/** Orders that a volume joins, under a name that no other has. It must not be closed,
+ * recombined or relit until it has left and `tetralight_joined_commit` was called. */
 TETRALIGHT_API tetralight_status tetralight_joined_add(tetralight_joined* joined, const char* name,
                                                        const tetralight_volume* part,
                                                        tetralight_error* error) TETRALIGHT_NOEXCEPT;
@@ -473,6 +641,11 @@ TETRALIGHT_API tetralight_status
 tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
                           tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** The same for a file that is in memory. Copies the bytes. */
+TETRALIGHT_API tetralight_status
+tetralight_lightmaps_open_memory(const void* bytes, size_t size, tetralight_lightmaps** lightmaps,
+                                 tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
 /** Closes lightmaps; does nothing if they are NULL. */
 TETRALIGHT_API void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) TETRALIGHT_NOEXCEPT;
 
@@ -484,6 +657,33 @@ TETRALIGHT_API tetralight_status tetralight_lightmaps_get_info(
  * such instance. */
 TETRALIGHT_API tetralight_status tetralight_lightmaps_rectangle(
     const tetralight_lightmaps* lightmaps, uint32_t instance, tetralight_lightmap_place* place,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The arrays of lightmaps. Texels are ordered by page, row and column; row 0 is at v = 0. */
+typedef enum tetralight_lightmap_array {
+    /** Four halves a texel: irradiance divided by `tetralight_lightmaps_info.scale`, and 1 where a
+     * surface is. */
+    TETRALIGHT_LIGHTMAP_IRRADIANCE = 0,
+    /** 12 halves a texel: the light for normal maps (lightmap/lightmaps.h). */
+    TETRALIGHT_LIGHTMAP_LIGHT = 1,
+    /** One byte a texel: 255 = its rays hit no back face. */
+    TETRALIGHT_LIGHTMAP_VALIDITY = 2,
+    /** One half a texel: the relative standard error of its irradiance. */
+    TETRALIGHT_LIGHTMAP_STANDARD_ERROR = 3,
+    /** Four bytes a texel, 255 = lit. */
+    TETRALIGHT_LIGHTMAP_SHADOW_MASK = 4,
+    /** One byte a texel: 255 = open. */
+    TETRALIGHT_LIGHTMAP_AMBIENT_OCCLUSION = 5,
+    /** Text, one name a line, each ended by a line feed. */
+    TETRALIGHT_LIGHTMAP_INSTANCE_NAMES = 6,
+    /** Text: how the lightmaps were made, a JSON object. */
+    TETRALIGHT_LIGHTMAP_METADATA = 7
+} tetralight_lightmap_array;
+
+/** An array of lightmaps without a copy, `which` a tetralight_lightmap_array; valid until close.
+ * `stride` is not 0. Returns TETRALIGHT_NOT_THERE if the array is empty. */
+TETRALIGHT_API tetralight_status tetralight_lightmaps_get_array(
+    const tetralight_lightmaps* lightmaps, uint32_t which, tetralight_const_array* array,
     tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Irradiance (three floats) at a place of a page (two floats), bilinear, not divided by pi. With a
@@ -550,6 +750,11 @@ typedef struct tetralight_reflection_blend {
 TETRALIGHT_API tetralight_status
 tetralight_reflections_open(const char* path, tetralight_reflections** reflections,
                             tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The same for a file that is in memory. Copies the bytes. */
+TETRALIGHT_API tetralight_status tetralight_reflections_open_memory(
+    const void* bytes, size_t size, tetralight_reflections** reflections,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Closes reflection probes; does nothing if they are NULL. */
 TETRALIGHT_API void tetralight_reflections_close(tetralight_reflections* reflections)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
-#include <new>
-#include <utility>
+#include <iterator>
 
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_open.h>
+#include <tetralight/runtime/detail/c_views.h>
 #include <tetralight/runtime/tetralight.h>
 
 struct tetralight_lightmaps {
@@ -16,14 +17,34 @@ struct tetralight_lightmaps {
 namespace {
 
 using namespace tetralight;
+using detail::c_view;
 using detail::CallError;
 using detail::check_floats;
 using detail::check_pointer;
-using detail::file_error;
 using detail::finish;
 using detail::succeed;
 
 static_assert(TETRALIGHT_NO_PAGE == kNoIndex);
+
+/// An array of lightmaps by its name.
+struct LightmapArray {
+    const char* name;
+    tetralight_const_array (*view)(const LightmapsView& lightmaps);
+};
+
+/// In the order of tetralight_lightmap_array.
+constexpr LightmapArray kLightmapArrays[] = {
+    {"irradiance", [](const LightmapsView& v) { return c_view(v.irradiance); }},
+    {"light for normal maps", [](const LightmapsView& v) { return c_view(v.light); }},
+    {"validity", [](const LightmapsView& v) { return c_view(v.validity); }},
+    {"standard errors", [](const LightmapsView& v) { return c_view(v.error); }},
+    {"a shadow mask", [](const LightmapsView& v) { return c_view(v.shadow_mask); }},
+    {"ambient occlusion", [](const LightmapsView& v) { return c_view(v.ambient_occlusion); }},
+    {"instance names", [](const LightmapsView& v) { return c_view(v.instance_names); }},
+    {"metadata", [](const LightmapsView& v) { return c_view(v.metadata); }},
+};
+
+static_assert(std::size(kLightmapArrays) == TETRALIGHT_LIGHTMAP_METADATA + 1);
 
 /// What is wrong with the place of a sample.
 CallError check_place(const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page) {
@@ -38,14 +59,13 @@ CallError check_place(const tetralight_lightmaps* lightmaps, uint32_t page, cons
 
 tetralight_status tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
                                             tetralight_error* error) noexcept {
-    if (auto wrong = check_pointer("path", path)) return finish(wrong, error);
-    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
-    auto file = open_lightmap_file(path);
-    if (!file) return finish(file_error(file.error()), error);
-    auto* opened = new (std::nothrow) tetralight_lightmaps{std::move(*file)};
-    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for lightmaps"}, error);
-    *lightmaps = opened;
-    return succeed(error);
+    return detail::open_path(open_lightmap_file, path, "lightmaps", lightmaps, error);
+}
+
+tetralight_status tetralight_lightmaps_open_memory(const void* bytes, size_t size,
+                                                   tetralight_lightmaps** lightmaps,
+                                                   tetralight_error* error) noexcept {
+    return detail::open_bytes(open_lightmap_memory, bytes, size, "lightmaps", lightmaps, error);
 }
 
 void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) noexcept {
@@ -84,6 +104,24 @@ tetralight_status tetralight_lightmaps_rectangle(const tetralight_lightmaps* lig
     *place = {{rectangle.scale.x, rectangle.scale.y},
               {rectangle.offset.x, rectangle.offset.y},
               rectangle.page};
+    return succeed(error);
+}
+
+tetralight_status tetralight_lightmaps_get_array(const tetralight_lightmaps* lightmaps,
+                                                 uint32_t which, tetralight_const_array* array,
+                                                 tetralight_error* error) noexcept {
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
+    if (auto wrong = check_pointer("array", array)) return finish(wrong, error);
+    if (which >= std::size(kLightmapArrays)) {
+        return finish({TETRALIGHT_BAD_VALUE, str_cat("which is out of range: ", which)}, error);
+    }
+    const LightmapArray& wanted = kLightmapArrays[which];
+    const tetralight_const_array view = wanted.view(lightmaps->file.view());
+    if (!view.data) {
+        return finish({TETRALIGHT_NOT_THERE, str_cat("the lightmaps do not hold ", wanted.name)},
+                      error);
+    }
+    *array = view;
     return succeed(error);
 }
 

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
-#include <new>
-#include <utility>
 
 #include <tetralight/reflection/reflection_file.h>
 #include <tetralight/reflection/sample_reflections.h>
 #include <tetralight/reflection/split_sum.h>
 #include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_open.h>
 #include <tetralight/runtime/tetralight.h>
 
 struct tetralight_reflections {
@@ -22,7 +21,6 @@ using namespace tetralight;
 using detail::CallError;
 using detail::check_floats;
 using detail::check_pointer;
-using detail::file_error;
 using detail::finish;
 using detail::succeed;
 
@@ -63,14 +61,14 @@ CallError not_there(const char* what, uint32_t index, size_t count) {
 tetralight_status tetralight_reflections_open(const char* path,
                                               tetralight_reflections** reflections,
                                               tetralight_error* error) noexcept {
-    if (auto wrong = check_pointer("path", path)) return finish(wrong, error);
-    if (auto wrong = check_pointer("reflections", reflections)) return finish(wrong, error);
-    auto file = open_reflection_file(path);
-    if (!file) return finish(file_error(file.error()), error);
-    auto* opened = new (std::nothrow) tetralight_reflections{std::move(*file)};
-    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for reflections"}, error);
-    *reflections = opened;
-    return succeed(error);
+    return detail::open_path(open_reflection_file, path, "reflections", reflections, error);
+}
+
+tetralight_status tetralight_reflections_open_memory(const void* bytes, size_t size,
+                                                     tetralight_reflections** reflections,
+                                                     tetralight_error* error) noexcept {
+    return detail::open_bytes(open_reflection_memory, bytes, size, "reflections", reflections,
+                              error);
 }
 
 void tetralight_reflections_close(tetralight_reflections* reflections) noexcept {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the wheel: the package with the shared library inside. `./run package python` calls this.
 
-TETRALIGHT_LIBRARY is the path of libtetralight.so.0. The version is that of CMakeLists.txt."""
+TETRALIGHT_LIBRARY is the path of libtetralight.so.0, in a folder that holds only it and what it needs. The version is that of CMakeLists.txt."""
 import os
 import re
 import shutil
@@ -24,7 +24,7 @@ def project_version() -> str:
 
 
 class BuildWithLibrary(build_py):
-    """Copies the shared library and the licence beside the modules."""
+    """Copies the shared libraries and the licence beside the modules."""
 
     def run(self) -> None:
         super().run()
@@ -32,7 +32,8 @@ class BuildWithLibrary(build_py):
         if not library:
             raise RuntimeError("TETRALIGHT_LIBRARY is not set: the path of libtetralight.so.0")
         package = Path(self.build_lib) / "tetralight"
-        shutil.copyfile(library, package / "libtetralight.so.0")
+        for path in Path(library).parent.glob("*.so.*"):
+            shutil.copyfile(path, package / path.name)
         shutil.copyfile(PROJECT / "LICENSE", package / "LICENSE")
 
 

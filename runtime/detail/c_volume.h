@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,13 +19,15 @@ struct tetralight_volume {
         : source(joined), view(joined) {}
 
     std::optional<tetralight::ProbeFile> file;
-    /// The volume as it is in the file.
+    /// The volume as it is in the file, or as it was relit.
     tetralight::ProbeVolumeView source;
     /// What queries read.
     tetralight::ProbeVolumeView view;
     std::vector<tetralight::IrradianceSh> irradiance;
     std::vector<tetralight::CompactProbe> compact;
     std::vector<tetralight::Layer> layers;
+    /// The volume with a new sky or sun, in place of the file's.
+    std::unique_ptr<const tetralight::ProbeVolume> relit;
 };
 
 namespace tetralight::detail {

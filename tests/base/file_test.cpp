@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace tetralight {
@@ -62,6 +63,27 @@ TEST_F(FileTest, MapsAnEmptyFileAsNoBytes) {
     const auto mapped = MappedFile::open(path("empty"));
     ASSERT_TRUE(mapped);
     EXPECT_TRUE(mapped->bytes().empty());
+}
+
+TEST_F(FileTest, CopiesBytesThatOutliveTheirSourceAndAMove) {
+    auto source = std::make_unique<std::string>("copied");
+    auto copied = MappedFile::copy_of(bytes(*source));
+    ASSERT_TRUE(copied);
+    source.reset();
+    MappedFile moved = std::move(*copied);
+    EXPECT_EQ(characters(moved.bytes()), "copied");
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(moved.bytes().data()) % 64, 0u);
+    moved.release_pages();
+    EXPECT_EQ(characters(moved.bytes()), "copied") << "a copy cannot be read again";
+    ASSERT_TRUE(write_file(path("a"), bytes("mapped")));
+    moved = std::move(*MappedFile::open(path("a")));
+    EXPECT_EQ(characters(moved.bytes()), "mapped");
+}
+
+TEST_F(FileTest, CopiesNoBytes) {
+    const auto copied = MappedFile::copy_of({});
+    ASSERT_TRUE(copied);
+    EXPECT_TRUE(copied->bytes().empty());
 }
 
 TEST_F(FileTest, LeavesNoTemporaryFileBehind) {

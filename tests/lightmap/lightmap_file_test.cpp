@@ -68,6 +68,26 @@ TEST_F(LightmapFileTest, ReadsBackEverySection) {
     EXPECT_EQ(copy_lightmaps(file->view()), lightmaps);
 }
 
+TEST_F(LightmapFileTest, OpensBytesThatGoAfterwards) {
+    std::vector<std::byte> bytes = lightmap_file_bytes(lightmaps.view());
+    auto opened = open_lightmap_memory(bytes);
+    ASSERT_TRUE(opened) << error_text(opened.error());
+    bytes.assign(bytes.size(), std::byte{0xff});
+    const LightmapFile file = std::move(*opened);
+    EXPECT_EQ(copy_lightmaps(file.view()), lightmaps);
+    const auto refused = open_lightmap_memory(bytes);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(error_text(refused.error()), "memory: not a lightmap file (wrong first bytes)");
+}
+
+TEST_F(LightmapFileTest, RefusesBytesInMemoryThatAreWrong) {
+    std::vector<std::byte> bytes = lightmap_file_bytes(lightmaps.view());
+    bytes[table_of(bytes).back().offset] ^= std::byte{1};
+    const auto file = open_lightmap_memory(bytes);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(error_text(file.error()), "memory: section \"metadata\" is corrupt (wrong checksum)");
+}
+
 TEST_F(LightmapFileTest, SamplesTheMappedBytesAsMemory) {
     ASSERT_TRUE(write_lightmap_file(path, lightmaps.view()));
     auto opened = open_lightmap_file_lazy(path);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -78,6 +79,43 @@ TEST_F(ProbeFileTest, AnswersFromTheMappedBytesAsFromMemory) {
         EXPECT_EQ(location, locate(volume.view(), glm::vec3(p)));
         EXPECT_EQ(interpolate(file.view(), location), interpolate(volume.view(), location));
     }
+}
+
+TEST_F(ProbeFileTest, OpensBytesThatGoAfterwards) {
+    const std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    std::vector<std::byte> shifted(bytes.size() + 1);
+    const auto odd = std::span(shifted).subspan(1);  // on no boundary
+    std::ranges::copy(bytes, odd.begin());
+    auto opened = open_probe_memory(odd);
+    ASSERT_TRUE(opened) << error_text(opened.error());
+    std::ranges::fill(shifted, std::byte{0xff});
+    const ProbeFile file = std::move(*opened);
+    EXPECT_EQ(copy_volume(file.view()), volume);
+    EXPECT_TRUE(verify(file));
+    file.release_pages();
+    EXPECT_TRUE(verify(file));
+}
+
+TEST_F(ProbeFileTest, RefusesBytesInMemoryCutAtAnyLength) {
+    const std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    for (size_t length = 0; length < bytes.size(); ++length) {
+        const std::vector<std::byte> cut(bytes.begin(),
+                                         bytes.begin() + static_cast<ptrdiff_t>(length));
+        const auto file = open_probe_memory(cut);
+        ASSERT_FALSE(file) << length;
+        EXPECT_EQ(file.error().code, ErrorCode::Corrupt);
+        EXPECT_TRUE(error_text(file.error()).starts_with("memory: "));
+    }
+}
+
+TEST_F(ProbeFileTest, NamesMemoryAndTheSection) {
+    std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    bytes[detail::kAlignment * 60] ^= std::byte{1};
+    const auto file = open_probe_memory(bytes);
+    ASSERT_FALSE(file);
+    EXPECT_FALSE(file.error().field.empty());
+    EXPECT_EQ(error_text(file.error()),
+              "memory: section \"" + file.error().field + "\" is corrupt (wrong checksum)");
 }
 
 TEST_F(ProbeFileTest, HasAlignedSectionsAndAHeaderOf64Bytes) {

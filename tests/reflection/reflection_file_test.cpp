@@ -111,6 +111,19 @@ TEST_F(ReflectionFileTest, ReadsBackWhatWasWritten) {
     EXPECT_TRUE(std::ranges::equal(names, reflections.names));
 }
 
+TEST_F(ReflectionFileTest, OpensBytesThatGoAfterwards) {
+    Bytes gone = bytes;
+    auto opened = open_reflection_memory(gone);
+    ASSERT_TRUE(opened) << error_text(opened.error());
+    gone.assign(gone.size(), std::byte{0xff});
+    const ReflectionFile file = std::move(*opened);
+    EXPECT_EQ(reflection_file_bytes(file.copy()), bytes);
+    const auto refused = open_reflection_memory(gone);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Corrupt);
+    EXPECT_TRUE(error_text(refused.error()).starts_with("memory: ")) << error_text(refused.error());
+}
+
 TEST_F(ReflectionFileTest, NamesAndMetadataMayBeMissing) {
     Reflections bare = reflections;
     bare.names.clear();

@@ -74,6 +74,17 @@ TEST_F(OutOfMemoryDeathTest, RecombineIsRefused) {
     EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");  // 3000 x 108 + 128
 }
 
+TEST_F(OutOfMemoryDeathTest, CopiesOfFilesAreRefused) {
+    const std::vector<std::byte> bytes(1'000'000);
+    const auto child = [&] {
+        leave_little_memory();
+        tetralight_volume* opened = nullptr;
+        end_with(tetralight_open_memory(bytes.data(), bytes.size(), &opened, &error), error,
+                 "no memory for a copy of the file: 1000000 bytes");
+    };
+    EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
+}
+
 TEST_F(OutOfMemoryDeathTest, ShaderVolumesAreRefused) {
     const auto child = [&] {
         leave_little_memory();

@@ -64,6 +64,28 @@ TEST_F(CApiReflections, HaveWhatTheFileHas) {
     EXPECT_TRUE(std::isinf(probe.half_size[0]));
 }
 
+TEST_F(CApiReflections, OpenFromMemory) {
+    std::vector<std::byte> bytes = reflection_file_bytes(data);
+    tetralight_reflections* other = nullptr;
+    ASSERT_EQ(tetralight_reflections_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_OK)
+        << error.message;
+    bytes.assign(bytes.size(), std::byte{0xff});
+    tetralight_const_array texels{};
+    ASSERT_EQ(tetralight_reflections_texels(other, 0, &texels, &error), TETRALIGHT_OK);
+    ASSERT_EQ(texels.size, data.levels[0].size() * 8);
+    EXPECT_EQ(std::memcmp(texels.data, data.levels[0].data(), texels.size), 0);
+    tetralight_reflections_close(other);
+    other = nullptr;
+    EXPECT_EQ(tetralight_reflections_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_CORRUPT);
+    EXPECT_EQ(other, nullptr);
+    EXPECT_EQ(tetralight_reflections_open_memory(nullptr, 1, &other, &error),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_reflections_open_memory(bytes.data(), 1, nullptr, &error),
+              TETRALIGHT_BAD_POINTER);
+}
+
 TEST_F(CApiReflections, GiveTheTexelsOfALevel) {
     tetralight_const_array texels{};
     ASSERT_EQ(tetralight_reflections_texels(reflections, 1, &texels, &error), TETRALIGHT_OK);

@@ -97,6 +97,38 @@ TEST_F(CApi, FilesThatAreNotThereOrBrokenAreErrors) {
     EXPECT_EQ(tetralight_verify(volume, &error), TETRALIGHT_OK);
 }
 
+TEST_F(CApi, OpensACopyOfAFileInMemory) {
+    std::vector<std::byte> bytes = probe_file_bytes(data.view());
+    tetralight_volume* other = nullptr;
+    ASSERT_EQ(tetralight_open_memory(bytes.data(), bytes.size(), &other, &error), TETRALIGHT_OK)
+        << error.message;
+    bytes.assign(bytes.size(), std::byte{0xff});
+    const float position[] = {0.1f, 0.2f, -0.3f};
+    tetralight_light light{}, expected{};
+    EXPECT_EQ(tetralight_query(other, position, nullptr, &light, &error), TETRALIGHT_OK);
+    EXPECT_EQ(tetralight_query(volume, position, nullptr, &expected, &error), TETRALIGHT_OK);
+    EXPECT_EQ(std::memcmp(&light, &expected, sizeof light), 0);
+    EXPECT_EQ(tetralight_verify(other, &error), TETRALIGHT_OK) << error.message;
+    tetralight_close(other);
+}
+
+TEST_F(CApi, FilesInMemoryThatAreWrongAreErrors) {
+    std::vector<std::byte> bytes = probe_file_bytes(data.view());
+    tetralight_volume* other = nullptr;
+    EXPECT_EQ(tetralight_open_memory(nullptr, 10, &other, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_STREQ(error.message, "bytes is NULL");
+    EXPECT_EQ(tetralight_open_memory(bytes.data(), bytes.size(), nullptr, &error),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_open_memory(bytes.data(), 0, &other, &error), TETRALIGHT_CORRUPT);
+    EXPECT_EQ(tetralight_open_memory(bytes.data(), bytes.size() - 1, &other, &error),
+              TETRALIGHT_CORRUPT);
+    bytes[bytes.size() - 5] ^= std::byte{1};
+    EXPECT_EQ(tetralight_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_CORRUPT);
+    EXPECT_EQ(std::string(error.message).find("memory: "), 0u) << error.message;
+    EXPECT_EQ(other, nullptr);
+}
+
 TEST_F(CApi, NullPointersAreErrors) {
     const float floats[28] = {};
     float out[28];

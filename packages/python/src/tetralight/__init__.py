@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from tetralight._declarations import NO_CELL
+from tetralight._library import version as _version
 from tetralight.errors import (
     BadValue,
     Cancelled,
@@ -23,18 +25,40 @@ from tetralight.errors import (
     Unavailable,
     Unsupported,
 )
+from tetralight.light import Light
+from tetralight.lightmaps import NO_PAGE, Lightmaps, open_lightmaps
+from tetralight.lppv import Lppv
+from tetralight.picture import tone_mapped, write_png
+from tetralight.reflections import Reflections, open_reflections
+from tetralight.scene_light import SceneLight
+from tetralight.volume import Volume, open
+
+__version__ = _version()
 
 __all__ = [
+    "NO_CELL",
+    "NO_PAGE",
     "BadValue",
     "Cancelled",
     "Closed",
     "Corrupt",
     "Error",
+    "Light",
+    "Lightmaps",
+    "Lppv",
     "NotFound",
     "NotThere",
     "OutOfMemory",
+    "Reflections",
+    "SceneLight",
     "Unavailable",
     "Unsupported",
+    "Volume",
+    "open",
+    "open_lightmaps",
+    "open_reflections",
+    "tone_mapped",
+    "write_png",
 ]
 
 # Imported at their first use: programs that only query do not load them.

@@ -64,6 +64,14 @@ def vectors(name: str, values: Any, size: int = 3, dtype: Any = np.float32) -> A
     return array
 
 
+def three(name: str, values: Any) -> FloatArray:
+    """One vector."""
+    array = np.array(vectors(name, values))
+    if array.shape != (3,):
+        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
+    return array
+
+
 def each(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
     """One number for each position, or one for all of them, without gaps."""
     array = np.asarray(values)

@@ -48,6 +48,40 @@ IGNORE_WALLS = 1
 SH_COEFFICIENTS = 0
 SH_PACKED = 1
 SH_HALF = 2
+ARRAY_POSITIONS = 0
+ARRAY_EXACT_POSITIONS = 1
+ARRAY_IRRADIANCE = 2
+ARRAY_HALVES = 3
+ARRAY_OCCLUSION = 4
+ARRAY_VALIDITY = 5
+ARRAY_STANDARD_ERROR = 6
+ARRAY_SURFACE_DISTANCE = 7
+ARRAY_VIRTUAL_OFFSET = 8
+ARRAY_DILATED = 9
+ARRAY_RENDERING_LAYERS = 10
+ARRAY_CELL_VERTICES = 11
+ARRAY_CELL_NEIGHBORS = 12
+ARRAY_HULL_RAYS = 13
+ARRAY_SOURCES = 14
+ARRAY_LAYER_IRRADIANCE = 15
+ARRAY_LAYER_ERRORS = 16
+ARRAY_SKY = 17
+ARRAY_GROUP_NAMES = 18
+ARRAY_LIGHT_NAMES = 19
+ARRAY_LAYER_NAMES = 20
+ARRAY_METADATA = 21
+LIGHT_DIRECTIONAL = 0
+LIGHT_POINT = 1
+LIGHT_SPOT = 2
+LIGHT_RECTANGLE = 3
+LIGHT_DISC = 4
+LIGHT_MIXED = 0
+LIGHT_BAKED = 1
+LIGHT_REALTIME = 2
+FALLOFF_GLTF = 0
+FALLOFF_INVERSE_SQUARE_RANGE = 1
+FALLOFF_LINEAR = 2
+FALLOFF_LEGACY = 3
 LPPV_LOW = 0
 LPPV_NORMAL = 1
 LPPV_FULL = 2
@@ -57,6 +91,14 @@ LPPV_FOUR_SLABS = 0
 LPPV_SEVEN_SLABS = 1
 LPPV_HALF = 0
 LPPV_FLOAT = 1
+LIGHTMAP_IRRADIANCE = 0
+LIGHTMAP_LIGHT = 1
+LIGHTMAP_VALIDITY = 2
+LIGHTMAP_STANDARD_ERROR = 3
+LIGHTMAP_SHADOW_MASK = 4
+LIGHTMAP_AMBIENT_OCCLUSION = 5
+LIGHTMAP_INSTANCE_NAMES = 6
+LIGHTMAP_METADATA = 7
 
 
 class Error(Structure):
@@ -147,6 +189,41 @@ class Instances(Structure):
     ]
 
 
+class Details(Structure):
+    _fields_ = [
+        ("world_origin", c_double * 3),
+        ("low", c_double * 3),
+        ("high", c_double * 3),
+        ("ambient", c_float * 27),
+        ("half_scale", c_float),
+        ("knows_walls", c_uint32),
+        ("can_relight_sky", c_uint32),
+        ("can_relight_sun", c_uint32),
+        ("light_count", c_uint32),
+    ]
+
+
+class SceneLight(Structure):
+    _fields_ = [
+        ("name", c_char * 128),
+        ("type", c_uint32),
+        ("mode", c_uint32),
+        ("falloff", c_uint32),
+        ("channel", c_uint32),
+        ("weight", c_float),
+        ("intensity", c_float * 3),
+        ("position", c_float * 3),
+        ("direction", c_float * 3),
+        ("range", c_float),
+        ("cos_inner_cone", c_float),
+        ("cos_outer_cone", c_float),
+        ("radius", c_float),
+        ("tangent", c_float * 3),
+        ("width", c_float),
+        ("height", c_float),
+    ]
+
+
 class LppvBox(Structure):
     _fields_ = [
         ("world_from_box", c_float * 16),
@@ -233,11 +310,18 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "tetralight_version_string": (c_char_p, []),
     "tetralight_open": (c_int, [c_char_p, POINTER(c_void_p), POINTER(Error)]),
     "tetralight_open_lazy": (c_int, [c_char_p, POINTER(c_void_p), POINTER(Error)]),
+    "tetralight_open_memory": (c_int, [c_void_p, c_size_t, POINTER(c_void_p), POINTER(Error)]),
     "tetralight_verify": (c_int, [c_void_p, POINTER(Error)]),
     "tetralight_close": (None, [c_void_p]),
     "tetralight_get_info": (c_int, [c_void_p, POINTER(Info), POINTER(Error)]),
     "tetralight_get_layer": (c_int, [c_void_p, c_uint32, POINTER(Layer), POINTER(Error)]),
+    "tetralight_get_array": (c_int, [c_void_p, c_uint32, POINTER(ConstArray), POINTER(Error)]),
+    "tetralight_get_details": (c_int, [c_void_p, POINTER(Details), POINTER(Error)]),
+    "tetralight_get_scene_light": (c_int, [c_void_p, c_uint32, POINTER(SceneLight), POINTER(Error)]),
     "tetralight_recombine": (c_int, [c_void_p, c_void_p, c_size_t, POINTER(Error)]),
+    "tetralight_relight_sky": (c_int, [c_void_p, c_void_p, POINTER(Error)]),
+    "tetralight_relight_sun": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(Error)]),
+    "tetralight_save": (c_int, [c_void_p, c_char_p, POINTER(Error)]),
     "tetralight_query": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(Light), POINTER(Error)]),
     "tetralight_query_batch": (c_int, [c_void_p, POINTER(Batch), POINTER(Report), POINTER(Error)]),
     "tetralight_pack_instances": (c_int, [c_void_p, POINTER(Instances), POINTER(Report), POINTER(Error)]),
@@ -256,13 +340,16 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "tetralight_get_shader_array": (c_int, [c_void_p, c_uint32, POINTER(ConstArray), POINTER(Error)]),
     "tetralight_free_shader_volume": (None, [c_void_p]),
     "tetralight_lightmaps_open": (c_int, [c_char_p, POINTER(c_void_p), POINTER(Error)]),
+    "tetralight_lightmaps_open_memory": (c_int, [c_void_p, c_size_t, POINTER(c_void_p), POINTER(Error)]),
     "tetralight_lightmaps_close": (None, [c_void_p]),
     "tetralight_lightmaps_get_info": (c_int, [c_void_p, POINTER(LightmapsInfo), POINTER(Error)]),
     "tetralight_lightmaps_rectangle": (c_int, [c_void_p, c_uint32, POINTER(LightmapPlace), POINTER(Error)]),
+    "tetralight_lightmaps_get_array": (c_int, [c_void_p, c_uint32, POINTER(ConstArray), POINTER(Error)]),
     "tetralight_lightmaps_sample": (c_int, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_void_p, POINTER(Error)]),
     "tetralight_lightmaps_shadow_mask": (c_int, [c_void_p, c_uint32, c_void_p, c_void_p, POINTER(Error)]),
     "tetralight_lightmaps_ambient_occlusion": (c_int, [c_void_p, c_uint32, c_void_p, c_void_p, POINTER(Error)]),
     "tetralight_reflections_open": (c_int, [c_char_p, POINTER(c_void_p), POINTER(Error)]),
+    "tetralight_reflections_open_memory": (c_int, [c_void_p, c_size_t, POINTER(c_void_p), POINTER(Error)]),
     "tetralight_reflections_close": (None, [c_void_p]),
     "tetralight_reflections_get_info": (c_int, [c_void_p, POINTER(ReflectionsInfo), POINTER(Error)]),
     "tetralight_reflections_get_probe": (c_int, [c_void_p, c_uint32, POINTER(ReflectionProbe), POINTER(Error)]),

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any
+from typing import Any, Union
 
 from tetralight import _declarations as c
 from tetralight import errors
 
 NAME = "libtetralight.so.0"
+HIGHWAY = "libhwy.so.1"
 
 ERRORS: dict[int, tuple[type[errors.Error], str]] = {
     c.BAD_POINTER: (errors.BadValue, "bad_value"),
@@ -38,9 +39,17 @@ def library_path() -> str:
     return beside if os.path.exists(beside) else NAME
 
 
+def load_dependency(path: str) -> None:
+    """The wheel may hold Highway, too. Once it is loaded, the library finds it by its name."""
+    beside = os.path.join(os.path.dirname(path), HIGHWAY)
+    if os.path.exists(beside):
+        ctypes.CDLL(beside)
+
+
 def load() -> ctypes.CDLL:
     path = library_path()
     try:
+        load_dependency(path)
         loaded = ctypes.CDLL(path)
         c.declare(loaded)
     except OSError as error:
@@ -91,3 +100,15 @@ def opened(function: Any, free: Any, *arguments: Any) -> Handle:
     call(function, *arguments, ctypes.byref(pointer))
     assert pointer.value is not None
     return Handle(pointer.value, free)
+
+
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
+
+
+def opened_file(open_path: Any, open_memory: Any, free: Any, source: Source) -> tuple[Handle, str]:
+    """The handle of a file or of its bytes, which are copied, and its name for messages."""
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        content = bytes(source)
+        return opened(open_memory, free, content, len(content)), "memory"
+    name = os.fspath(source)
+    return opened(open_path, free, os.fsencode(name)), name

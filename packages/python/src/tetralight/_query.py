@@ -44,27 +44,37 @@ class Options(NamedTuple):
 def outputs(shape: tuple[int, ...], hints: Any, out: Any, format: str) -> Light:
     """Memory of the answers: the caller's, or new."""
     row, kind = choice("format", format, FORMATS)
-    given = out if isinstance(out, Light) else None
-    if given is not None and given.format != format:
-        raise BadValue(f"out: expected the format {format!r}, given {given.format!r}")
-    if given is not None:
-        sh = _arrays.output("out.sh", given.sh, shape + row, kind)
-        occlusion = _arrays.output("out.occlusion", given.occlusion, shape + (4,), np.float32)
-    else:
-        sh = np.empty(shape + row, kind) if out is None else _arrays.output("out", out, shape + row, kind)
-        occlusion = np.empty(shape + (4,), np.float32)
-    if hints is not None:
-        cells = _arrays.output("hints", hints, shape, np.uint32)
-    elif given is not None:
-        cells = _arrays.output("out.cells", given.cells, shape, np.uint32)
-        cells[...] = c.NO_CELL
-    else:
-        cells = np.full(shape, c.NO_CELL, np.uint32)
+    if isinstance(out, Light):
+        if out.format != format:
+            raise BadValue(f"out: expected the format {format!r}, given {out.format!r}")
+        _arrays.output("out.sh", out.sh, shape + row, kind)
+        _arrays.output("out.occlusion", out.occlusion, shape + (4,), np.float32)
+        cells = cells_of(shape, hints, out.cells)
+        out.cells = cells
+        return out
+    sh = np.empty(shape + row, kind) if out is None else _arrays.output("out", out, shape + row, kind)
+    return Light(sh, format, np.empty(shape + (4,), np.float32), cells_of(shape, hints, None))
+
+
+def cells_of(shape: tuple[int, ...], hints: Any, memory: AnyArray | None) -> AnyArray:
+    """The array that gives and receives hints. Without hints it holds NO_CELL."""
+    if hints is None and memory is None:
+        return np.full(shape, c.NO_CELL, np.uint32)
+    name, given = ("hints", hints) if hints is not None else ("out.cells", memory)
+    cells = _arrays.output(name, given, shape, np.uint32)
     if not cells.flags.c_contiguous:
-        raise BadValue(f"hints: expected an array without gaps, given the strides {cells.strides}")
-    light = given if given is not None else Light(sh, format, occlusion, cells)
-    light.cells = cells
-    return light
+        raise BadValue(f"{name}: expected an array without gaps, given the strides {cells.strides}")
+    if hints is None:
+        cells[...] = c.NO_CELL
+    return cells
+
+
+def check_receivers(radii: AnyArray | None, normal_offset: float) -> None:
+    """What the library would find only when it comes to the position."""
+    if radii is not None and not (np.isfinite(radii).all() and (radii >= 0).all()):
+        raise BadValue(f"radii: expected finite numbers >= 0, given {radii[~(radii >= 0) | ~np.isfinite(radii)][0]}")
+    if not 0 <= normal_offset < np.inf:
+        raise BadValue(f"normal_offset: expected a finite number >= 0, given {normal_offset}")
 
 
 class Task:
@@ -80,6 +90,7 @@ class Task:
         self.layers = self.optional("rendering_layers", options.rendering_layers, shape, np.uint32)
         self.radii = self.optional("radii", options.radii, shape, np.float32)
         self.normals = self.surface_normals(options.normals, shape)
+        check_receivers(self.radii, options.normal_offset)
         self.batch = c.Batch(
             sh_format=list(FORMATS).index(light.format),
             outside=choice("outside", options.outside, OUTSIDE),

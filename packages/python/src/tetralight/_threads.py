@@ -37,11 +37,26 @@ def parallel_for(count: int, task: Callable[[int], None], threads: int) -> None:
         except BaseException as failure:
             failures.append(failure)
 
-    helpers = [threading.Thread(target=work, daemon=True) for _ in range(min(threads, count) - 1)]
-    for helper in helpers:
-        helper.start()
+    helpers = started(work, min(threads, count) - 1)
     work()
     for helper in helpers:
-        helper.join()
+        while helper.is_alive():
+            try:
+                helper.join()
+            except BaseException as failure:  # an interrupt: the memory is in use until all have ended
+                failures.append(failure)
     if failures:
         raise failures[0]
+
+
+def started(work: Callable[[], None], count: int) -> list[threading.Thread]:
+    """As many threads as the system gives."""
+    helpers: list[threading.Thread] = []
+    for _ in range(count):
+        helper = threading.Thread(target=work, daemon=True)
+        try:
+            helper.start()
+        except RuntimeError:
+            break
+        helpers.append(helper)
+    return helpers

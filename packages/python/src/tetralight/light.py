@@ -53,7 +53,7 @@ class Light:
         return harmonics.irradiance(self.coefficients, normals)
 
     def __len__(self) -> int:
-        return len(self.cells)
+        return int(self.cells.size)
 
     def __repr__(self) -> str:
         return f"<tetralight.Light: {self.cells.size} positions, {self.format}>"

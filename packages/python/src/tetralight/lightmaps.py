@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from typing import Any
 
 import numpy as np
@@ -11,8 +10,8 @@ import numpy as np
 from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight._arrays import AnyArray, FloatArray
-from tetralight._library import Handle, call, library, opened
-from tetralight.errors import BadValue, Closed
+from tetralight._library import Handle, Source, call, library, opened_file
+from tetralight.errors import BadValue, Closed, NotThere
 
 NO_PAGE = c.NO_PAGE
 MIXED_LIGHTING = ("bounces", "shadow_mask", "direct")
@@ -63,6 +62,32 @@ class Lightmaps:
             f"<tetralight.Lightmaps {self.name!r}: {self.page_count} pages of {self.page_size}², "
             f"{self.instance_count} instances{', closed' if self._handle is None else ''}>"
         )
+
+    def _texels(self, which: int, channels: tuple[int, ...], dtype: Any) -> AnyArray:
+        handle = self._open_handle()
+        array = c.ConstArray()
+        shape = (self.page_count, self.page_size, self.page_size) + channels
+        try:
+            call(library.tetralight_lightmaps_get_array, handle.pointer, which, ctypes.byref(array))
+        except NotThere:
+            return np.zeros((0,) + shape[1:], dtype)
+        return _arrays.view_of(handle, array.data, shape, dtype)
+
+    @property
+    def irradiance(self) -> AnyArray:
+        """(page, row, column, 4): halves, irradiance divided by `scale`, and 1 where a surface is; row 0 is
+        at v = 0. A read-only view."""
+        return self._texels(c.LIGHTMAP_IRRADIANCE, (4,), np.float16)
+
+    @property
+    def validity(self) -> AnyArray:
+        """(page, row, column): 255 where rays hit no back face; a read-only view."""
+        return self._texels(c.LIGHTMAP_VALIDITY, (), np.uint8)
+
+    @property
+    def standard_error(self) -> AnyArray:
+        """(page, row, column): halves, the relative standard error of irradiance; a read-only view."""
+        return self._texels(c.LIGHTMAP_STANDARD_ERROR, (), np.float16)
 
     def rectangles(self) -> AnyArray:
         """One a instance, with `scale`, `offset` and `page`: uv_page = uv * scale + offset, with the
@@ -121,8 +146,7 @@ class Lightmaps:
         return made
 
 
-def open_lightmaps(path: str | os.PathLike[str]) -> Lightmaps:
-    """Opens a .lightmaps file and verifies all of it."""
-    name = os.fspath(path)
-    handle = opened(library.tetralight_lightmaps_open, library.tetralight_lightmaps_close, os.fsencode(name))
-    return Lightmaps(handle, name)
+def open_lightmaps(source: Source) -> Lightmaps:
+    """Opens a .lightmaps file, or its bytes, and verifies all of it."""
+    files = library.tetralight_lightmaps_open, library.tetralight_lightmaps_open_memory
+    return Lightmaps(*opened_file(*files, library.tetralight_lightmaps_close, source))

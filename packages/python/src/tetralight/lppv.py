@@ -40,13 +40,6 @@ class Lppv(np.ndarray[Any, Any]):
         return parts.transpose(2, 0, 1, 3, 4)
 
 
-def three(name: str, values: Any) -> list[float]:
-    array = _arrays.vectors(name, values)
-    if array.shape != (3,):
-        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
-    return [float(x) for x in array]
-
-
 def box_of(
     low: Any, high: Any, resolution: Any, world_from_box: Any, quality: str, placement: str, layout: str, format: str
 ) -> c.LppvBox:
@@ -58,8 +51,8 @@ def box_of(
         raise BadValue(f"world_from_box: expected the shape (4, 4), given {matrix.shape}")
     return c.LppvBox(
         world_from_box=(ctypes.c_float * 16)(*matrix.T.ravel()),
-        low=(ctypes.c_float * 3)(*three("low", low)),
-        high=(ctypes.c_float * 3)(*three("high", high)),
+        low=(ctypes.c_float * 3)(*_arrays.three("low", low).tolist()),
+        high=(ctypes.c_float * 3)(*_arrays.three("high", high).tolist()),
         resolution=(ctypes.c_uint32 * 3)(*(int(n) for n in counts)),
         placement=choice("placement", placement, PLACEMENTS),
         quality=choice("quality", quality, QUALITIES),

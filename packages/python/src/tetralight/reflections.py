@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight._arrays import AnyArray, FloatArray
-from tetralight._library import Handle, call, library, opened
+from tetralight._library import Handle, Source, call, library, opened_file
 from tetralight.errors import BadValue, Closed
 
 PROBE = np.dtype(
@@ -103,8 +102,8 @@ class Reflections:
         return made
 
 
-def open_reflections(path: str | os.PathLike[str]) -> Reflections:
-    """Opens a .reflections file and verifies all of it."""
-    name = os.fspath(path)
-    handle = opened(library.tetralight_reflections_open, library.tetralight_reflections_close, os.fsencode(name))
-    return Reflections(handle, name)
+def open_reflections(source: Source) -> Reflections:
+    """Opens the reflection probes that `tetralight reflect` writes (.ktx2), or their bytes, and verifies all
+    of them."""
+    files = library.tetralight_reflections_open, library.tetralight_reflections_open_memory
+    return Reflections(*opened_file(*files, library.tetralight_reflections_close, source))

@@ -79,3 +79,17 @@ def from_packed(packed: AnyArray) -> FloatArray:
     for i, (part, scale) in enumerate(zip(parts, scales)):
         made[..., i, :] = part * np.float32(math.pi / scale)
     return made
+
+
+def sky_coefficients(sky: Any) -> FloatArray:
+    """(16, 3): the radiance of a sky in bands 0 to 3, L_i = integral of L Y_i, from one number, RGB, or the
+    coefficients themselves."""
+    array = np.asarray(sky)
+    if array.dtype.kind not in "fiu" or array.shape not in ((), (3,), (16, 3)):
+        raise BadValue(f"sky: expected a number, RGB or the shape (16, 3), given {array.dtype} {array.shape}")
+    made = np.zeros((16, 3), np.float32)
+    if array.ndim == 2:
+        made[...] = array
+    else:
+        made[0] = array * (4 * math.pi * Y0)  # the integral of a constant times Y_0
+    return made

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any
+from typing import Any, Callable, TypeVar
 
 import numpy as np
 
 from tetralight import _arrays
 from tetralight import _declarations as c
-from tetralight import _query
-from tetralight._arrays import AnyArray, FloatArray
+from tetralight import _query, mesh
+from tetralight import lppv as proxy
+from tetralight._arrays import AnyArray, FloatArray, three
+from tetralight._contents import Contents
 from tetralight._gate import Gate
-from tetralight._library import Handle, call, library, opened
+from tetralight._library import Handle, Source, call, library, opened_file
 from tetralight.errors import BadValue, Closed, NotThere
+from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
+from tetralight.lppv import Lppv
+from tetralight.picture import Pixels, png, probes_from_above, tone_mapped
+from tetralight.scene_light import SceneLight, scene_light
+from tetralight.sh import mean_irradiance, sky_coefficients
+
+Result = TypeVar("Result")
 
 DIMENSIONS = ("no probes", "one probe", "a line", "a plane", "space")
 
@@ -39,6 +48,19 @@ class Volume:
         self.has_light = bool(info.has_light)
         self.has_occlusion = bool(info.has_occlusion)
         self._layer_count: int = info.layer_count
+        details = c.Details()
+        call(library.tetralight_get_details, handle.pointer, ctypes.byref(details))
+        self.low: FloatArray = np.array(details.low)
+        """The box of the probes."""
+        self.high: FloatArray = np.array(details.high)
+        self.ambient: FloatArray = np.array(details.ambient, np.float32).reshape(9, 3)
+        """The light of positions without a probe: irradiance coefficients."""
+        self.knows_walls = bool(details.knows_walls)
+        """True if the volume knows which walls hide its probes."""
+        self.can_relight_sky = bool(details.can_relight_sky)
+        self.can_relight_sun = bool(details.can_relight_sun)
+        self._light_count: int = details.light_count
+        self._contents = Contents(handle, self.probe_count, tuple(details.world_origin))
 
     # Opening and closing
 
@@ -76,6 +98,54 @@ class Volume:
             f"<tetralight.Volume {self.name!r}: {self.probe_count} probes in {DIMENSIONS[self.dimension]}, "
             f"{self.inner_cell_count} cells{'' if self.has_light else ', not baked'}>"
         )
+
+    # Arrays, which never change
+
+    def _read(self, read: Callable[[Contents], Result]) -> Result:
+        self._open_handle()
+        self._gate.enter()
+        try:
+            return read(self._contents)
+        finally:
+            self._gate.leave()
+
+    @property
+    def positions(self) -> AnyArray:
+        """(probe, 3): world positions, doubles; a read-only view."""
+        return self._read(lambda contents: contents.positions)
+
+    @property
+    def cells(self) -> AnyArray:
+        """(cell, 4): the probes of each cell, NO_CELL in unused places: first the cells inside the hull of
+        the probes, then those outside; a read-only view."""
+        return self._read(lambda contents: contents.cells)
+
+    @property
+    def neighbors(self) -> AnyArray:
+        """(cell, 4): the cell opposite each of its probes, NO_CELL for none; a read-only view."""
+        return self._read(lambda contents: contents.neighbors)
+
+    @property
+    def irradiance(self) -> ProbeIrradiance:
+        """(probe, 9, 3): irradiance coefficients, E(n) = sum of E_i Y_i(n); read-only, and a view while the
+        light is that of the file. `volume.irradiance(positions, normals)` is the light between the
+        probes."""
+        return of_probes(self._read(lambda contents: contents.irradiance()), self)
+
+    @property
+    def validity(self) -> AnyArray:
+        """(probe): the fraction of its rays that hit no back face; a read-only view."""
+        return self._read(lambda contents: contents.validity)
+
+    @property
+    def standard_error(self) -> AnyArray:
+        """(probe): the relative standard error of its irradiance, 0 = not known; a read-only view."""
+        return self._read(lambda contents: contents.standard_error)
+
+    @property
+    def metadata(self) -> dict[str, Any]:
+        """How the volume was made."""
+        return self._read(lambda contents: contents.metadata())
 
     # Queries
 
@@ -121,7 +191,46 @@ class Volume:
         finally:
             self._gate.leave()
 
-    # Layers
+    def lppv(
+        self,
+        low: Any,
+        high: Any,
+        resolution: Any,
+        *,
+        world_from_box: Any = None,
+        quality: str = "full",
+        placement: str = "cell_centers",
+        layout: str = "seven_slabs",
+        format: str = "float",
+    ) -> Lppv:
+        """The texture of a proxy volume: a grid of light in a box around a large object.
+
+        low, high: the box in the object's space; world_from_box: its transform (4, 4), by default none.
+        resolution: grid points along X, Y and Z, 1 to 256.
+        quality: which bands of the light vary in the box: "low", "normal" or "full".
+        placement: grid points at "cell_centers" or "cell_corners".
+        layout: "four_slabs" or "seven_slabs"; format: "half" or "float".
+        """
+        box = proxy.box_of(low, high, resolution, world_from_box, quality, placement, layout, format)
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            return proxy.fill(handle.pointer, box, layout, format)
+        finally:
+            self._gate.leave()
+
+    # Lights and layers
+
+    @property
+    def lights(self) -> list[SceneLight]:
+        """The lights of the scene. Of mixed lights the probes hold the bounces: the caller adds the direct
+        light."""
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            return [scene_light(handle.pointer, index) for index in range(self._light_count)]
+        finally:
+            self._gate.leave()
 
     @property
     def layers(self) -> dict[str, float]:
@@ -154,22 +263,70 @@ class Volume:
         array = np.ascontiguousarray(weights, np.float32)
         if array.shape != (self._layer_count,):
             raise BadValue(f"weights: expected the shape ({self._layer_count},), given {array.shape}")
+        self._change(library.tetralight_recombine, array.ctypes.data, len(array))
+
+    def relight(self, *, sky: Any = None, sun_direction: Any = None, sun_irradiance: Any = None) -> None:
+        """Replaces the light of the sky and the sun, in a volume that was baked with transfer.
+
+        sky: its radiance: one number, RGB, or (16, 3) coefficients of bands 0 to 3.
+        sun_direction: the vector along which the sun shines; sun_irradiance: RGB, on a surface that faces
+            it. Of a mixed sun the volume holds only the bounces.
+        Arrays from before keep the light that they show.
+        """
+        if (sun_direction is None) != (sun_irradiance is None):
+            raise BadValue("sun_irradiance: expected sun_direction and sun_irradiance, given only one of them")
+        if sky is not None:
+            radiance = sky_coefficients(sky)
+            self._change(library.tetralight_relight_sky, radiance.ctypes.data)
+        if sun_direction is not None:
+            direction = three("sun_direction", sun_direction)
+            direction /= max(float(np.linalg.norm(direction)), 1e-30)
+            irradiance = three("sun_irradiance", sun_irradiance)
+            self._change(library.tetralight_relight_sun, direction.ctypes.data, irradiance.ctypes.data)
+
+    def _change(self, function: Any, *arguments: Any) -> None:
+        """Calls a function that must run alone on the volume."""
         handle = self._open_handle()
         self._gate.close()
         try:
-            call(library.tetralight_recombine, handle.pointer, array.ctypes.data, len(array))
+            self._contents.prepare_change()
+            call(function, handle.pointer, *arguments)
         finally:
             self._gate.open()
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the volume with its present light to a .probes file."""
+        handle = self._open_handle()
+        self._gate.enter()
+        try:
+            call(library.tetralight_save, handle.pointer, os.fsencode(path))
+        finally:
+            self._gate.leave()
 
-def open(source: str | os.PathLike[str] | bytes | bytearray | memoryview) -> Volume:
-    """Opens a .probes file, or its bytes, and verifies all of it."""
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        raise NotImplementedError
-    path = os.fspath(source)
-    handle = opened_path(path)
-    return Volume(handle, path)
+    # Pictures and files
+
+    def picture(self, width: int = 640) -> Pixels:
+        """uint8 (height, width, 3): the probes from above, colored by their mean irradiance. X points
+        right, Z down; higher probes hide lower ones."""
+        if self.has_light:
+            colors = tone_mapped(mean_irradiance(np.asarray(self.irradiance)))
+        else:
+            colors = np.full((self.probe_count, 3), 160, np.uint8)
+        return probes_from_above(self.positions, colors, width)
+
+    def _repr_png_(self) -> bytes | None:
+        return None if self.is_closed else png(self.picture())
+
+    def to_vtu(self, path: str | os.PathLike[str]) -> None:
+        """Writes probes and cells as a .vtu file for ParaView and PyVista."""
+        mesh.write_vtu(self, path)
+
+    def to_meshio(self) -> Any:
+        """Probes and cells as a `meshio.Mesh`; needs meshio."""
+        return mesh.meshio_mesh(self)
 
 
-def opened_path(path: str) -> Handle:
-    return opened(library.tetralight_open, library.tetralight_close, os.fsencode(path))
+def open(source: Source) -> Volume:
+    """Opens a .probes file, or its bytes, and verifies all of it. Bytes are copied."""
+    files = library.tetralight_open, library.tetralight_open_memory
+    return Volume(*opened_file(*files, library.tetralight_close, source))

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lightmaps and reflection probes that the command bakes of the courtyard."""
+import unittest
+
+import numpy as np
+
+import tetralight
+from support import baked
+
+
+class Lightmaps(unittest.TestCase):
+    def setUp(self):
+        path = baked("lightmap", ".lightmaps", "--samples", "1", "--texels-per-meter", "1")
+        self.lightmaps = tetralight.open_lightmaps(path)
+
+    def test_rectangles_lie_in_their_pages(self):
+        places = self.lightmaps.rectangles()
+        self.assertEqual(len(places), self.lightmaps.instance_count)
+        lit = places[places["page"] != tetralight.NO_PAGE]
+        self.assertGreater(len(lit), 0)
+        self.assertLess(lit["page"].max(), self.lightmaps.page_count)
+        self.assertGreaterEqual(lit["offset"].min(), 0)
+        self.assertLessEqual((lit["offset"] + lit["scale"]).max(), 1 + 1e-5)
+
+    def test_samples_are_the_texels_at_their_centers(self):
+        texels = self.lightmaps.irradiance
+        size = self.lightmaps.page_size
+        self.assertEqual(texels.shape, (self.lightmaps.page_count, size, size, 4))
+        rows, columns = np.nonzero(texels[0, ..., 3] > 0)
+        chosen = np.random.default_rng(1).choice(len(rows), 20)
+        at = np.stack([columns[chosen], rows[chosen]], -1)
+        sampled = self.lightmaps.sample(0, (at + 0.5) / size)
+        expected = texels[0, at[:, 1], at[:, 0], :3].astype(np.float32) * self.lightmaps.scale
+        np.testing.assert_allclose(sampled, expected, 1e-2, 1e-3 * expected.max())
+
+    def test_masks_lie_between_0_and_1(self):
+        uv = np.random.default_rng(1).uniform(size=(5, 4, 2))
+        mask, openness = self.lightmaps.shadow_mask(0, uv), self.lightmaps.ambient_occlusion(0, uv)
+        self.assertEqual((mask.shape, openness.shape), ((5, 4, 4), (5, 4)))
+        for values in (mask, openness):
+            self.assertTrue(((values >= 0) & (values <= 1)).all())
+
+    def test_refuses_wrong_places(self):
+        with self.assertRaisesRegex(tetralight.BadValue, r"uv_page.*\(…, 2\).*\(3,\)"):
+            self.lightmaps.sample(0, (0, 0, 0))
+        with self.assertRaises(tetralight.NotThere):
+            self.lightmaps.sample(1000, (0.5, 0.5))
+
+    def test_close(self):
+        texels = self.lightmaps.irradiance
+        expected = np.array(texels)
+        with self.lightmaps:
+            pass
+        np.testing.assert_array_equal(texels, expected)
+        with self.assertRaises(tetralight.Closed):
+            self.lightmaps.sample(0, (0.5, 0.5))
+
+    def test_open_from_bytes(self):
+        with open(self.lightmaps.name, "rb") as file:
+            again = tetralight.open_lightmaps(file.read())
+        np.testing.assert_array_equal(again.irradiance, self.lightmaps.irradiance)
+
+
+class Reflections(unittest.TestCase):
+    def setUp(self):
+        path = baked("reflect", ".ktx2", "--samples", "1", "--cube-size", "16")
+        self.reflections = tetralight.open_reflections(path)
+
+    def test_texels(self):
+        r = self.reflections
+        for level in range(r.level_count):
+            side = max(1, r.size >> level)
+            self.assertEqual(r.texels(level).shape, (r.probe_count, 6, side, side, 4))
+        with self.assertRaises(tetralight.NotThere):
+            r.texels(r.level_count)
+
+    def test_probes(self):
+        probes = self.reflections.probes()
+        self.assertEqual(len(probes), self.reflections.probe_count)
+        axes = probes["axes"].astype(float)
+        np.testing.assert_allclose(axes @ axes.transpose(0, 2, 1), np.tile(np.eye(3), (len(axes), 1, 1)), 0, 1e-5)
+
+    def test_samples_are_within_the_range_of_the_texels(self):
+        r = self.reflections
+        directions = np.random.default_rng(1).normal(size=(20, 3))
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        positions = np.tile(r.probes()["position"][0], (20, 1))
+        sharp, rough = (r.sample(positions, directions, roughness) for roughness in (0, 1))
+        self.assertEqual(sharp.shape, (20, 3))
+        self.assertLessEqual(sharp.max(), r.texels(0)[..., :3].max() * 1.001)
+        self.assertLess(rough.std(0).max(), sharp.std(0).max())
+
+    def test_open_from_bytes(self):
+        with open(self.reflections.name, "rb") as file:
+            again = tetralight.open_reflections(file.read())
+        np.testing.assert_array_equal(again.texels(), self.reflections.texels())

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The annotations of the package, checked by mypy."""
+import importlib.util
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parents[2] / "packages/python"
+
+
+class Types(unittest.TestCase):
+    def test_mypy_finds_nothing(self):
+        command = shutil.which("mypy")
+        if not command:
+            self.skipTest("mypy is missing")
+        with tempfile.TemporaryDirectory() as cache:
+            found = subprocess.run(
+                [command, "--strict", "--cache-dir", cache, "--python-executable", sys.executable, "src"],
+                cwd=PACKAGE,
+                capture_output=True,
+                text=True,
+            )
+        self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
+
+    def test_the_marker_is_installed(self):
+        found = importlib.util.find_spec("tetralight")
+        self.assertTrue((Path(found.origin).parent / "py.typed").exists())
