@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C API (runtime/tetralight.h) for ctypes. Written by make_declarations.py."""
+"""The C API for ctypes. Written by packages/bindings/generate.py from runtime/tetralight.h: change that header."""
 from __future__ import annotations
 
 import ctypes
@@ -15,14 +15,11 @@ from ctypes import (
     c_size_t,
     c_uint32,
     c_uint64,
-    c_uint8,
     c_void_p,
 )
 from typing import Any
 
-VERSION_MAJOR = 0
-VERSION_MINOR = 1
-VERSION_PATCH = 0
+VERSION = "0.1.0"
 NO_CELL = 0xffffffff
 NORMAL_OFFSET = 0.1
 SHADER_ARRAY_COUNT = 7

@@ -56,12 +56,9 @@ def load() -> ctypes.CDLL:
         raise ImportError(f"{path}: the library of tetralight cannot be loaded: {error}") from error
     except AttributeError as error:
         raise ImportError(f"{path}: not the library of this version of tetralight: {error}") from error
-    version = loaded.tetralight_version() // 100
-    if version != c.VERSION_MAJOR * 100 + c.VERSION_MINOR:
-        raise ImportError(
-            f"{path}: the library has version {loaded.tetralight_version_string().decode()}, "
-            f"the package needs {c.VERSION_MAJOR}.{c.VERSION_MINOR}"
-        )
+    found = loaded.tetralight_version_string().decode()
+    if found.split(".")[:2] != c.VERSION.split(".")[:2]:
+        raise ImportError(f"{path}: the library has version {found}, the package needs {c.VERSION}")
     return loaded
 
 
