@@ -9,7 +9,7 @@ Space is right-handed, Y up, in metres; light is linear Rec.709.
 """
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tetralight._declarations import NO_CELL
 from tetralight._library import version as _version
@@ -60,3 +60,29 @@ __all__ = [
     "tone_mapped",
     "write_png",
 ]
+
+# Imported at their first use: programs that only query do not load them.
+if TYPE_CHECKING:
+    from tetralight.client import Client
+    from tetralight.commands import Grid, bake, check_leaks, grid, run, verify
+
+_LATER = {
+    "Client": "client",
+    "Grid": "commands",
+    "bake": "commands",
+    "check_leaks": "commands",
+    "grid": "commands",
+    "run": "commands",
+    "verify": "commands",
+}
+__all__ += list(_LATER)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
+    value = getattr(importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
+    globals()[name] = value
+    return value

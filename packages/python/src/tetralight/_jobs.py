@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import warnings
 from pathlib import Path
 from typing import Any, Callable, Union
 
@@ -123,8 +122,6 @@ class Job:
             answer = None
         if not isinstance(answer, dict):
             raise Error(self._silence(name, code, err), "command_failed")
-        for text in answer.pop("warnings", None) or []:
-            warnings.warn(f"tetralight {name}: {text}", stacklevel=4)
         if isinstance(answer.get("error"), dict):
             raise error_of(answer)
         if code != 0:

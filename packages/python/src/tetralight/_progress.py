@@ -6,7 +6,8 @@ import sys
 import time
 from typing import Callable, Optional, TextIO, Union
 
-#: Called with the finished fraction, or None while it is not known, and one line of text.
+#: Called several times a second with the finished fraction, or None while it is not known, and one line of text. What
+#: it raises stops the work.
 Callback = Callable[[Optional[float], str], object]
 #: A callback; True: a bar; False: nothing; None: a bar on a terminal and in a notebook.
 Progress = Union[Callback, bool, None]
@@ -54,12 +55,9 @@ class Silence:
 class _Caller:
     def __init__(self, callback: Callback) -> None:
         self._callback = callback
-        self._last: tuple[float | None, str] | None = None
 
     def __call__(self, fraction: float | None, text: str) -> None:
-        if (fraction, text) != self._last:
-            self._last = (fraction, text)
-            self._callback(fraction, text)
+        self._callback(fraction, text)
 
     def close(self) -> None:
         pass

@@ -14,6 +14,8 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import warnings
+import weakref
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
@@ -24,8 +26,8 @@ import tetralight
 from tetralight._jobs import Job, StrPath, setting_names
 from tetralight._positions import Positions, checked_positions, read_groups, write_groups
 from tetralight._progress import Progress, counted, reporter
-from tetralight._settings import check_names
-from tetralight.errors import Unavailable
+from tetralight._settings import bad_value, check_names
+from tetralight.errors import Error, Unavailable
 
 if TYPE_CHECKING:
     from tetralight import Volume
@@ -33,8 +35,14 @@ if TYPE_CHECKING:
 Scene = Union[StrPath, bytes]
 Groups = Union[Mapping[str, Positions], StrPath, Sequence[StrPath]]
 
-# Settings of `bake` whose result is not a volume of its own, or that the package sets.
-_NOT_FOR_BAKE = {"explain", "prepared", "probes", "progress_file", "resume"}
+# Settings of the command that `bake` does not have, and what has their place.
+_NOT_FOR_BAKE = {
+    "explain": 'call run("explain", scene=...)',
+    "prepared": 'call run("bake", ...)',
+    "probes": 'the result is not a volume: call run("bake", ...)',
+    "progress_file": "use progress",
+    "resume": "give a folder as chunks",
+}
 
 
 @dataclass(frozen=True)
@@ -55,7 +63,7 @@ class Grid:
 def grid(scene: Scene, *, command: StrPath | None = None, progress: Progress = None, **settings: Any) -> Grid:
     """Fills a scene with probes (`tetralight grid`): positions, and groups for `bake`."""
     with Job(command) as job:
-        check_names("grid", settings, setting_names(job.program, "grid") - {"output"})
+        _check_names(job, "grid", settings, {"output"})
         output = job.folder / "groups.json"
         files = {"scene": _file(job, scene, "scene.glb"), "output": output}
         report = _run(job, "grid", {**settings, **files}, progress, "placing probes")
@@ -83,16 +91,23 @@ def bake(
     which is replaced as a whole."""
     if positions is not None and groups is not None:
         raise TypeError("bake() accepts positions or groups, not both")
+    for name, instead in _NOT_FOR_BAKE.items():
+        if name in settings:
+            raise TypeError(f"bake() does not accept {name!r}: {instead}")
+    if output is not None:
+        _check_output(Path(output))
     if positions is not None:
         groups = {"positions": checked_positions("positions", positions)}
         settings.setdefault("only_given_groups", True)
     with Job(command) as job:
-        check_names("bake", settings, setting_names(job.program, "bake") - _NOT_FOR_BAKE - {"groups", "output"})
+        _check_names(job, "bake", settings, {*_NOT_FOR_BAKE, "groups", "output"})
         result = job.folder / "result.probes"
         files = {"scene": _file(job, scene, "scene.glb"), "groups": _group_files(job, groups), "output": result}
         _run(job, "bake", {**settings, **files}, progress, "baking", "probe")
+        if not result.is_file():
+            raise Error(f"{job.program}: `bake` wrote no volume", "command_failed")
         if output is None:
-            return tetralight.open(result.read_bytes())
+            return _opened(result.read_bytes())
         _replace(result, Path(output))
     return tetralight.open(output)
 
@@ -125,7 +140,7 @@ def verify(
     return _compare("verify", scene, volume, command, progress, settings)
 
 
-def run(name: str, *, command: StrPath | None = None, progress: Progress = None, **settings: Any) -> dict[str, Any]:
+def run(name: str, /, *, command: StrPath | None = None, progress: Progress = None, **settings: Any) -> dict[str, Any]:
     """Runs any command by its settings, positional arguments in lower case: the answer of `--json`."""
     with Job(command) as job:
         return _run(job, name, settings, progress, name)
@@ -140,19 +155,30 @@ def _compare(
     settings: dict[str, Any],
 ) -> dict[str, Any]:
     with Job(command) as job:
-        known = setting_names(job.program, name)
-        if known:  # a command without this subcommand says so itself
-            check_names(name.replace("-", "_"), settings, known - {"scene"})
+        _check_names(job, name, settings, {"scene"})
         files = {"scene": _file(job, scene, "scene.glb"), "volume": _volume_file(job, volume)}
-        report = _run(job, name, {**settings, **files}, progress, "tracing light")
+        report = _run(job, name, {**settings, **files}, progress, "tracing light", depth=4)
     report.pop("file", None)
     return report
 
 
+def _check_names(job: Job, name: str, settings: dict[str, Any], without: set[str]) -> None:
+    known = setting_names(job.program, name)
+    if known:  # a program without this command says so itself
+        check_names(name.replace("-", "_"), settings, known - without)
+
+
 def _run(
-    job: Job, name: str, settings: dict[str, Any], progress: Progress, text: str, unit: str | None = None
+    job: Job,
+    name: str,
+    settings: dict[str, Any],
+    progress: Progress,
+    text: str,
+    unit: str | None = None,
+    depth: int = 3,
 ) -> dict[str, Any]:
-    """Runs a job and shows its progress. `unit` is what the progress file of the command counts."""
+    """Runs a job and shows its progress. `unit` is what the progress file of the command counts; `depth` is the number
+    of calls from the caller of the package to here, for warnings."""
     show = reporter(progress)
     progress_file = job.folder / "progress.json"
     if unit is not None:
@@ -161,9 +187,11 @@ def _run(
         show(None, text)
         answer = job.run(name, settings, lambda: show(*_look(progress_file, text, unit)))
         show(1.0, f"{text}: done")
-        return answer
     finally:
         show.close()
+    for warning in answer.pop("warnings", None) or []:
+        warnings.warn(f"tetralight {name}: {warning}", stacklevel=depth)
+    return answer
 
 
 def _look(progress_file: Path, text: str, unit: str | None) -> tuple[float | None, str]:
@@ -190,9 +218,23 @@ def _file(job: Job, source: Scene, name: str) -> Path:
 
 
 def _volume_file(job: Job, volume: Volume | Scene) -> Path:
-    if isinstance(volume, tetralight.Volume):
-        return _file(job, bytes(volume.data), "volume.probes")
-    return _file(job, volume, "volume.probes")
+    if not isinstance(volume, tetralight.Volume):
+        return _file(job, volume, "volume.probes")
+    if volume in _baked:
+        return _file(job, _baked[volume], "volume.probes")
+    if not os.path.isfile(volume.name):
+        raise bad_value("volume", volume, "is not open from a file: give its path or bytes")
+    return Path(volume.name)
+
+
+# The bytes of open volumes that have no file.
+_baked: weakref.WeakKeyDictionary[Volume, bytes] = weakref.WeakKeyDictionary()
+
+
+def _opened(data: bytes) -> Volume:
+    volume = tetralight.open(data)
+    _baked[volume] = data
+    return volume
 
 
 def _group_files(job: Job, groups: Groups | None) -> list[Path]:
@@ -205,6 +247,15 @@ def _group_files(job: Job, groups: Groups | None) -> list[Path]:
     if isinstance(groups, (str, os.PathLike)):
         return [Path(groups)]
     return [Path(file) for file in groups]
+
+
+def _check_output(output: Path) -> None:
+    """Refuses a file that cannot be written, before the work."""
+    folder = output.parent
+    if output.is_dir():
+        raise bad_value("output", str(output), "is a folder")
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        raise bad_value("output", str(output), "is not in a folder that can be written to")
 
 
 def _replace(result: Path, output: Path) -> None:
