@@ -70,9 +70,9 @@ def call(command, log, **options):
 
 def compiler_version(platform):
     text = subprocess.run([platform.compiler, "--version"], capture_output=True, text=True).stdout
-    first = text.split("\n")[0]
-    number = re.search(r"\d+\.\d+(\.\d+)?", first)
-    return f"{platform.compiler} {number[0] if number else first}"
+    # "g++ (Debian 12.2.0-14) 12.2.0", "x86_64-w64-mingw32-g++-posix (GCC) 12-posix", "Debian clang version 16.0.6"
+    number = re.search(r"\d+(\.\d+)*", text.split("\n")[0].split(")")[-1])
+    return f"{platform.compiler} {number[0]}" if number else platform.compiler
 
 
 def build(platform, folder, log):
