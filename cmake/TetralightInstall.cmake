@@ -51,6 +51,20 @@ install(FILES ${PROJECT_BINARY_DIR}/tetralightConfig.cmake
               ${PROJECT_BINARY_DIR}/tetralightConfigVersion.cmake
         DESTINATION ${package_folder} COMPONENT dev)
 
+# The shared library: find_package(tetralight COMPONENTS shared), pkg-config tetralight-shared.
+if(TARGET tetralight_shared)
+  install(TARGETS tetralight_shared EXPORT tetralight_shared
+          RUNTIME COMPONENT runtime
+          LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(EXPORT tetralight_shared NAMESPACE tetralight:: FILE tetralightSharedTargets.cmake
+          DESTINATION ${package_folder} COMPONENT dev)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/tetralight-shared.pc.in
+                 ${PROJECT_BINARY_DIR}/tetralight-shared.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/tetralight-shared.pc
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endif()
+
 # pkg-config tetralight
 set(ship_libraries ${ship_components})
 list(REVERSE ship_libraries)

@@ -92,8 +92,14 @@ endfunction()
 
 # tetralight_ship(NAME): the module belongs to the ship set, which is built without exceptions and
 # RTTI so that a game can be built without them.
+#
+# Its symbols are hidden and in sections of their own: the shared library exports the C API alone and
+# leaves out what that does not need (runtime/shared).
 function(tetralight_ship name)
-  target_compile_options(tetralight_${name} PRIVATE -fno-exceptions)
+  set_target_properties(tetralight_${name} PROPERTIES
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(tetralight_${name} PRIVATE
+    -fno-exceptions -ffunction-sections -fdata-sections)
   # UBSan checks objects by their type information, also of those that this module makes.
   if(NOT TETRALIGHT_SANITIZE)
     target_compile_options(tetralight_${name} PRIVATE -fno-rtti)

@@ -61,13 +61,14 @@ struct MortonLattice {
 void sort_by_digit(std::span<const uint64_t> from, std::span<uint64_t> to, int shift,
                    int digit_bits) {
     std::array<uint32_t, 1 << 12> begins{};
-    const uint64_t mask = (uint64_t{1} << digit_bits) - 1;
-    for (const uint64_t key : from) ++begins[key >> shift & mask];
+    const size_t mask = (size_t{1} << digit_bits) - 1;
+    const auto digit_of = [&](uint64_t key) { return static_cast<size_t>(key >> shift) & mask; };
+    for (const uint64_t key : from) ++begins[digit_of(key)];
     uint32_t begin = 0;
-    for (uint64_t digit = 0; digit <= mask; ++digit) {
+    for (size_t digit = 0; digit <= mask; ++digit) {
         begin += std::exchange(begins[digit], begin);
     }
-    for (const uint64_t key : from) to[begins[key >> shift & mask]++] = key;
+    for (const uint64_t key : from) to[begins[digit_of(key)]++] = key;
 }
 
 }  // namespace

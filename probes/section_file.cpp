@@ -33,14 +33,20 @@ Status check_entry(const SectionEntry& entry, uint64_t end_of_previous, uint64_t
     return Ok{};
 }
 
-uint64_t aligned(uint64_t offset) {
+size_t aligned(size_t offset) {
     return (offset + kAlignment - 1) / kAlignment * kAlignment;
 }
 
 /// What lies between two sections.
-std::span<const std::byte> zeros(uint64_t count) {
+std::span<const std::byte> zeros(size_t count) {
     static constexpr std::array<std::byte, kAlignment> kZeros{};
     return std::span(kZeros).first(count);
+}
+
+/// Bytes of a file whose table was checked: both numbers fit in memory.
+std::span<const std::byte> part_of(std::span<const std::byte> file, uint64_t offset,
+                                   uint64_t size) {
+    return file.subspan(static_cast<size_t>(offset), static_cast<size_t>(size));
 }
 
 bool are_zero(std::span<const std::byte> bytes) {
@@ -108,18 +114,18 @@ Result<std::span<const SectionEntry>> read_section_table(const SectionFileKind& 
 Status verify_checksums(std::span<const std::byte> file, std::span<const SectionEntry> table) {
     uint64_t end = sizeof(FileHeader) + table.size_bytes();
     for (const SectionEntry& entry : table) {
-        if (!are_zero(file.subspan(end, entry.offset - end))) {
+        if (!are_zero(part_of(file, end, entry.offset - end))) {
             return Error{ErrorCode::Corrupt, str_cat("bytes before section \"", section_name(entry),
                                                      "\" are not zero")};
         }
-        if (checksum(file.subspan(entry.offset, entry.size())) != entry.checksum) {
+        if (checksum(part_of(file, entry.offset, entry.size())) != entry.checksum) {
             const std::string name = section_name(entry);
             return Error{ErrorCode::Corrupt, name, "",
                          str_cat("section \"", name, "\" is corrupt (wrong checksum)")};
         }
         end = entry.offset + entry.size();
     }
-    if (!are_zero(file.subspan(end)))
+    if (!are_zero(part_of(file, end, file.size() - end)))
         return Error{ErrorCode::Corrupt, "bytes after the last section are not zero"};
     return Ok{};
 }
@@ -130,7 +136,7 @@ std::optional<std::span<const std::byte>> find_section_bytes(std::span<const std
                                                              uint64_t element_size) noexcept {
     for (const FileSection& section : sections) {
         if (section.name != name || section.element_size != element_size) continue;
-        return file.subspan(section.offset, section.size);
+        return part_of(file, section.offset, section.size);
     }
     return std::nullopt;
 }
@@ -148,12 +154,13 @@ SectionFileImage make_file_image(const SectionFileKind& kind, std::vector<Sectio
     const size_t head_size = sizeof(FileHeader) + parts.size() * sizeof(SectionEntry);
     SectionFileImage image{std::vector<std::byte>(head_size), {{}}};
     std::vector<SectionEntry> table;
-    uint64_t offset = head_size;
+    size_t offset = head_size;
     for (SectionPart& part : parts) {
-        part.entry.offset = aligned(offset);
-        image.pieces.push_back(zeros(part.entry.offset - offset));
+        const size_t begin = aligned(offset);
+        part.entry.offset = begin;
+        image.pieces.push_back(zeros(begin - offset));
         image.pieces.push_back(part.bytes);
-        offset = part.entry.offset + part.bytes.size();
+        offset = begin + part.bytes.size();
         table.push_back(part.entry);
     }
     image.pieces.push_back(zeros(aligned(offset) - offset));

@@ -45,7 +45,7 @@ namespace detail {
 
 static_assert(std::endian::native == std::endian::little, "the file is used in place");
 
-inline constexpr uint64_t kAlignment = 64;
+inline constexpr size_t kAlignment = 64;
 inline constexpr uint32_t kMaxSectionCount = 1024;
 
 /// How files of one kind begin, and what messages call them.

@@ -45,7 +45,7 @@ inline constexpr uint32_t kSeedGridLongestSide = 1u << 20;
 
 /// Precondition: all words of the header are in the section.
 [[nodiscard]] inline SeedGridHeader seed_grid_header(std::span<const uint32_t> words,
-                                                     uint64_t place) noexcept {
+                                                     size_t place) noexcept {
     SeedGridHeader header;
     std::memcpy(static_cast<void*>(&header), words.data() + place, sizeof header);
     return header;
@@ -76,14 +76,15 @@ inline constexpr uint32_t kSeedGridLongestSide = 1u << 20;
 }
 
 /// The place of the word that names a cell for a local position, in the grid at `place` or one
-/// inside it. ≥ words.size() if there is none or a grid is corrupt; any word may be corrupt.
-[[nodiscard]] inline uint64_t find_seed_word(std::span<const uint32_t> words,
-                                             const glm::vec3& local, uint64_t place = 0,
-                                             int level = 1) noexcept {
+/// inside it. words.size() if there is none or a grid is corrupt; any word may be corrupt.
+[[nodiscard]] inline size_t find_seed_word(std::span<const uint32_t> words, const glm::vec3& local,
+                                           size_t place = 0, int level = 1) noexcept {
     for (; level <= kSeedGridLevels; ++level) {
-        if (place + kSeedGridHeaderWords > words.size()) break;
-        const uint64_t word = seed_word(seed_grid_header(words, place), place, local);
-        if (word >= words.size() || (words[word] & kFinerGrid) == 0) return word;
+        if (uint64_t{place} + kSeedGridHeaderWords > words.size()) break;
+        const uint64_t found = seed_word(seed_grid_header(words, place), place, local);
+        if (found >= words.size()) break;
+        const auto word = static_cast<size_t>(found);
+        if ((words[word] & kFinerGrid) == 0) return word;
         place = words[word] & ~kFinerGrid;
     }
     return words.size();
@@ -93,10 +94,12 @@ inline constexpr uint32_t kSeedGridLongestSide = 1u << 20;
 /// finer grid that it names says. Any number may be corrupt.
 [[nodiscard]] inline uint32_t seed_cell(std::span<const uint32_t> words, uint64_t word,
                                         const glm::vec3& local) noexcept {
-    if (word < words.size() && (words[word] & kFinerGrid) != 0) {
-        word = find_seed_word(words, local, words[word] & ~kFinerGrid, 2);
+    if (word >= words.size()) return 0;
+    auto place = static_cast<size_t>(word);
+    if ((words[place] & kFinerGrid) != 0) {
+        place = find_seed_word(words, local, words[place] & ~kFinerGrid, 2);
     }
-    return word < words.size() ? words[word] : 0;
+    return place < words.size() ? words[place] : 0;
 }
 
 /// For each position a cell that contains it or is near it: where a walk from the seed grid is

@@ -53,14 +53,20 @@ class Maker {
         }
     };
 
+    /// The voxels of a grid whose words are in memory or will be.
+    [[nodiscard]] static size_t voxel_count(const SeedGridHeader& header) {
+        return static_cast<size_t>(seed_voxel_count(header));
+    }
+
     /// Counting sort.
     [[nodiscard]] Sorted sort(std::span<const uint32_t> probes,
                               const SeedGridHeader& header) const {
         const auto voxel_of = [&](uint32_t probe) {
-            return seed_word(header, 0, volume_.positions[probe]) - kSeedGridHeaderWords;
+            const uint64_t word = seed_word(header, 0, volume_.positions[probe]);
+            return static_cast<size_t>(word) - kSeedGridHeaderWords;
         };
         Sorted sorted{std::vector<uint32_t>(probes.size()),
-                      std::vector<uint32_t>(seed_voxel_count(header) + 2, 0u)};
+                      std::vector<uint32_t>(voxel_count(header) + 2, 0u)};
         for (const uint32_t probe : probes) ++sorted.begins[voxel_of(probe) + 2];
         std::partial_sum(sorted.begins.begin(), sorted.begins.end(), sorted.begins.begin());
         for (const uint32_t probe : probes) {
@@ -80,7 +86,7 @@ class Maker {
     }
 
     /// Adds the grid of some probes and those inside it; returns its place.
-    uint64_t add_grid(std::span<const uint32_t> probes, int level) {
+    size_t add_grid(std::span<const uint32_t> probes, int level) {
         const Box<glm::dvec3> box = box_of(probes);
         const auto count = static_cast<double>(probes.size());
         SeedGridHeader header = detail::make_seed_grid_header(box, kVoxelsPerProbe * count);
@@ -89,12 +95,12 @@ class Maker {
             header = detail::make_seed_grid_header(box, kVoxelsPerProbeIfUneven * count);
             sorted = sort(probes, header);
         }
-        const uint64_t place = words_.size();
+        const size_t place = words_.size();
         grids_.push_back(place);
-        words_.resize(place + kSeedGridHeaderWords + seed_voxel_count(header), kNoCell);
+        words_.resize(place + kSeedGridHeaderWords + voxel_count(header), kNoCell);
         std::memcpy(words_.data() + place, &header, sizeof header);
         std::vector<size_t> clusters;
-        for (size_t voxel = 0; voxel < seed_voxel_count(header); ++voxel) {
+        for (size_t voxel = 0; voxel < voxel_count(header); ++voxel) {
             const auto inside = sorted.in(voxel);
             add_voxel(header, place, voxel, inside, level);
             const bool is_split = (words_[place + kSeedGridHeaderWords + voxel] & kFinerGrid) != 0;
@@ -119,9 +125,9 @@ class Maker {
     /// Voxels around one with a finer grid name that grid as well, unless they have their own: a
     /// cluster may be at the border of its voxel, and the voxel beside it would name a cell far
     /// away.
-    void share_grid(const SeedGridHeader& header, uint64_t place, size_t voxel) {
+    void share_grid(const SeedGridHeader& header, size_t place, size_t voxel) {
         const auto at = voxel_position(header, voxel);
-        const uint64_t first = place + kSeedGridHeaderWords;
+        const size_t first = place + kSeedGridHeaderWords;
         for (int code = 0; code < 27; ++code) {
             const std::array<int, 3> steps{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
             std::array<size_t, 3> to{};
@@ -151,13 +157,13 @@ class Maker {
         return box;
     }
 
-    void add_voxel(const SeedGridHeader& header, uint64_t place, size_t voxel,
+    void add_voxel(const SeedGridHeader& header, size_t place, size_t voxel,
                    std::span<const uint32_t> probes, int level) {
-        const uint64_t word = place + kSeedGridHeaderWords + voxel;
+        const size_t word = place + kSeedGridHeaderWords + voxel;
         const bool is_split = level < kSeedGridLevels && probes.size() > kMostProbes &&
-                              seed_voxel_count(header) > 1 && words_.size() < kFinerGrid;
+                              voxel_count(header) > 1 && words_.size() < kFinerGrid;
         if (!is_split) return;
-        const uint64_t finer = add_grid(probes, level + 1);
+        const size_t finer = add_grid(probes, level + 1);
         words_[word] = kFinerGrid | static_cast<uint32_t>(finer);
     }
 
@@ -183,7 +189,7 @@ class Maker {
     }
 
     void enter(uint32_t cell, const glm::vec3& local) {
-        const uint64_t word = find_seed_word(words_, local);
+        const size_t word = find_seed_word(words_, local);
         if (word < words_.size() && words_[word] == kNoCell) words_[word] = cell;
     }
 
@@ -196,24 +202,24 @@ class Maker {
 
     /// Voxels without a cell take that of the voxel next to them that has one.
     void fill_gaps() {
-        for (const uint64_t place : grids_) fill_gaps(place);
+        for (const size_t place : grids_) fill_gaps(place);
     }
 
-    void fill_gaps(uint64_t place) {
+    void fill_gaps(size_t place) {
         const SeedGridHeader header = seed_grid_header(words_, place);
         const std::span voxels =
-            std::span(words_).subspan(place + kSeedGridHeaderWords, seed_voxel_count(header));
-        const std::array<uint64_t, 3> strides{1, header.size[0],
-                                              uint64_t{header.size[0]} * header.size[1]};
-        std::vector<uint64_t> filled;
-        for (uint64_t i = 0; i < voxels.size(); ++i) {
+            std::span(words_).subspan(place + kSeedGridHeaderWords, voxel_count(header));
+        const std::array<size_t, 3> strides{1, header.size[0],
+                                            size_t{header.size[0]} * header.size[1]};
+        std::vector<size_t> filled;
+        for (size_t i = 0; i < voxels.size(); ++i) {
             if (voxels[i] < kNoCell) filled.push_back(i);
         }
         for (size_t next = 0; next < filled.size(); ++next) {
-            const uint64_t from = filled[next];
+            const size_t from = filled[next];
             for (size_t axis = 0; axis < 3; ++axis) {
-                const uint64_t along = from / strides[axis] % header.size[axis];
-                const auto fill = [&](uint64_t to) {
+                const size_t along = from / strides[axis] % header.size[axis];
+                const auto fill = [&](size_t to) {
                     if (voxels[to] != kNoCell) return;
                     voxels[to] = voxels[from];
                     filled.push_back(to);
@@ -230,13 +236,13 @@ class Maker {
         const std::vector<uint32_t> words = words_;
         ProbeVolumeView view = volume_;
         view.seed_grid = words;
-        for (const uint64_t place : grids_) locate_centers(view, place);
+        for (const size_t place : grids_) locate_centers(view, place);
     }
 
-    void locate_centers(const ProbeVolumeView& view, uint64_t place) {
+    void locate_centers(const ProbeVolumeView& view, size_t place) {
         const SeedGridHeader header = seed_grid_header(words_, place);
         const std::span voxels =
-            std::span(words_).subspan(place + kSeedGridHeaderWords, seed_voxel_count(header));
+            std::span(words_).subspan(place + kSeedGridHeaderWords, voxel_count(header));
         constexpr size_t kPart = 4096;
         std::vector<glm::vec3> centers;
         std::vector<uint32_t> cells(kPart);
@@ -276,14 +282,14 @@ class Maker {
             for (size_t k = 0; k < 3; ++k) {
                 sum += volume_.positions[volume_.cells[cell].vertices[k]];
             }
-            const uint64_t word = find_seed_word(words_, sum / 3.0f);
+            const size_t word = find_seed_word(words_, sum / 3.0f);
             if (word < words_.size() && cell < kNoCell) words_[word] = cell;
         }
     }
 
     const ProbeVolumeView& volume_;
     std::vector<uint32_t> words_;
-    std::vector<uint64_t> grids_;  ///< places
+    std::vector<size_t> grids_;  ///< places
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ class Check {
         : words_(volume.seed_grid), cell_count_(volume.cells.size()) {}
 
     Status run() {
-        uint64_t place = 0;
+        size_t place = 0;
         while (place < words_.size()) {
             const auto named = levels_.extract(place);
             if (!named) return error(place, "no voxel names it");
@@ -45,33 +45,34 @@ class Check {
     }
 
   private:
-    [[nodiscard]] static Error error(uint64_t place, const std::string& what) {
+    [[nodiscard]] static Error error(size_t place, const std::string& what) {
         return section_error("seed_grid", str_cat("the grid at ", place, ": ", what));
     }
 
     /// Moves `place` behind the grid.
-    Status check_grid(uint64_t& place, int level) {
-        if (place + kSeedGridHeaderWords > words_.size()) return error(place, "is cut off");
+    Status check_grid(size_t& place, int level) {
+        if (words_.size() - place < kSeedGridHeaderWords) return error(place, "is cut off");
         const SeedGridHeader header = seed_grid_header(words_, place);
         if (auto problem = header_problem(header); !problem.empty()) return error(place, problem);
         const uint64_t count = seed_voxel_count(header);
         const uint64_t room = words_.size() - place - kSeedGridHeaderWords;
         if (count > room) return error(place, str_cat("has ", count, " voxels, room for ", room));
-        const uint64_t first = place + kSeedGridHeaderWords;
-        for (uint64_t word = first; word < first + count; ++word) {
+        const size_t first = place + kSeedGridHeaderWords;
+        const size_t end = first + static_cast<size_t>(count);
+        for (size_t word = first; word < end; ++word) {
             if (auto status = check_word(word, level); !status) return status;
         }
-        place = first + count;
+        place = end;
         return Ok{};
     }
 
-    Status check_word(uint64_t place, int level) {
+    Status check_word(size_t place, int level) {
         const uint32_t word = words_[place];
         if ((word & kFinerGrid) == 0) {
             if (word < cell_count_) return Ok{};
             return element_error("seed_grid", place, "is out of range");
         }
-        const uint64_t finer = word & ~kFinerGrid;
+        const size_t finer = word & ~kFinerGrid;
         if (finer <= place || level == kSeedGridLevels) {
             return element_error("seed_grid", place, "names a grid out of place");
         }
@@ -83,7 +84,7 @@ class Check {
     std::span<const uint32_t> words_;
     size_t cell_count_;
     /// Grids that voxels name and that are not checked yet: the level by place.
-    std::map<uint64_t, int> levels_{{0, 1}};
+    std::map<size_t, int> levels_{{0, 1}};
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept : 
 
 uint32_t Walk::start_cell() const noexcept {
     if (!volume_.seed_grid.empty()) {
-        const uint64_t word = find_seed_word(volume_.seed_grid, glm::vec3(position_));
+        const size_t word = find_seed_word(volume_.seed_grid, glm::vec3(position_));
         const uint32_t cell = word < volume_.seed_grid.size() ? volume_.seed_grid[word] : 0u;
         return cell < volume_.cells.size() ? cell : 0u;
     }

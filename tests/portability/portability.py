@@ -37,12 +37,20 @@ class Platform:
     # The command that runs the program, before it; None: it is only compiled.
     runner: tuple | None = ()
     environment: dict = dataclasses.field(default_factory=dict)
+    # Highway's namespace of the processor, which functions of the program must be in.
+    vectors: str = ""
     # Runs the program in another way: run(platform, folder, names) returns (is_right, text).
     run: object = None
 
 
 PLATFORMS = [
     Platform("linux", "Linux, x86-64, Highway", "g++"),
+    Platform("clang14", "Linux, x86-64, Highway", "clang++-14"),
+    Platform("clang16", "Linux, x86-64, Highway", "clang++-16"),
+    Platform("libcxx", "Linux, x86-64, Highway, libc++", "clang++-16", options=("-DCMAKE_CXX_FLAGS=-stdlib=libc++",)),
+    Platform("linux32", "Linux, x86, 32 bits", "g++-12", toolchain="linux32"),
+    Platform("aarch64", "Linux, ARM, 64 bits, NEON by Highway", "aarch64-linux-gnu-g++", toolchain="aarch64",
+             runner=("qemu-aarch64-static",), vectors="N_NEON"),
     Platform("mingw64", "Windows, 64 bits", "x86_64-w64-mingw32-g++-posix", toolchain="mingw64",
              program="tests/portability/portability_test.exe", runner=("/usr/lib/wine/wine64",),
              environment={"WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all", "DISPLAY": "",
@@ -137,6 +145,9 @@ def try_platform(platform, names):
     if platform.runner is None and platform.run is None:
         outcome.ran = "compiled only"
         outcome.failed = False
+        return outcome
+    if platform.vectors and platform.vectors.encode() not in (folder / platform.program).read_bytes():
+        outcome.ran = f"lacks the vector code {platform.vectors}"
         return outcome
     is_right, outcome.ran = run_program(platform, folder, names)
     outcome.failed = not is_right

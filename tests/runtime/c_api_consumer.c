@@ -92,6 +92,28 @@ static int compare(const tetralight_volume* volume) {
     return 1;
 }
 
+/** The cells of the positions hold probes of the volume, whose box contains them. */
+static int read_arrays(const tetralight_volume* volume, const tetralight_info* info) {
+    tetralight_const_array cells, positions;
+    tetralight_details details;
+    uint32_t i, k;
+    if (tetralight_get_array(volume, TETRALIGHT_ARRAY_CELL_VERTICES, &cells, NULL)) return 0;
+    if (tetralight_get_array(volume, TETRALIGHT_ARRAY_POSITIONS, &positions, NULL)) return 0;
+    if (tetralight_get_details(volume, &details, NULL)) return 0;
+    if (positions.size != info->probe_count * positions.stride) return 0;
+    for (i = 0; i < kCount; ++i) {
+        const uint32_t* vertices =
+            (const uint32_t*)((const char*)cells.data + hints[i] * cells.stride);
+        const float* position =
+            (const float*)((const char*)positions.data + vertices[0] * positions.stride);
+        for (k = 0; k < 3; ++k) {
+            const double place = details.world_origin[k] + position[k];
+            if (place < details.low[k] || place > details.high[k]) return 0;
+        }
+    }
+    return 1;
+}
+
 int run_c_api_consumer(const char* path) {
     const float up[3] = {0.0f, 1.0f, 0.0f};
     tetralight_error error;
@@ -107,6 +129,7 @@ int run_c_api_consumer(const char* path) {
     if (!compare(volume)) return 6;
     if (tetralight_sample_sh9(instances[0].light, up, rgb, &error) != TETRALIGHT_OK) return 7;
     if (!(rgb[0] == rgb[0])) return 8;
+    if (!read_arrays(volume, &info)) return 9;
     tetralight_close(volume);
     return 0;
 }

@@ -49,6 +49,45 @@ TEST_F(CApiLightmaps, HasWhatTheFileHas) {
     EXPECT_EQ(info.has_ambient_occlusion, 1u);
 }
 
+TEST_F(CApiLightmaps, HaveTheArraysOfTheFile) {
+    tetralight_const_array array{};
+    const auto expect_array = [&](uint32_t which, const auto& expected) {
+        ASSERT_EQ(tetralight_lightmaps_get_array(lightmaps, which, &array, &error), TETRALIGHT_OK)
+            << error.message;
+        ASSERT_EQ(array.size, expected.size() * sizeof expected[0]) << which;
+        EXPECT_EQ(array.stride, sizeof expected[0]) << which;
+        EXPECT_EQ(std::memcmp(array.data, expected.data(), array.size), 0) << which;
+    };
+    expect_array(TETRALIGHT_LIGHTMAP_IRRADIANCE, data.irradiance);
+    expect_array(TETRALIGHT_LIGHTMAP_LIGHT, data.light);
+    expect_array(TETRALIGHT_LIGHTMAP_VALIDITY, data.validity);
+    expect_array(TETRALIGHT_LIGHTMAP_STANDARD_ERROR, data.error);
+    expect_array(TETRALIGHT_LIGHTMAP_SHADOW_MASK, data.shadow_mask);
+    expect_array(TETRALIGHT_LIGHTMAP_AMBIENT_OCCLUSION, data.ambient_occlusion);
+    expect_array(TETRALIGHT_LIGHTMAP_INSTANCE_NAMES, data.instance_names);
+    expect_array(TETRALIGHT_LIGHTMAP_METADATA, data.metadata);
+}
+
+TEST_F(CApiLightmaps, AnArrayThatIsMissingIsAnError) {
+    Lightmaps bare = data;
+    bare.ambient_occlusion.clear();
+    bare.info.ambient_occlusion_distance = 0.0f;
+    const auto bytes = lightmap_file_bytes(bare.view());
+    tetralight_lightmaps* other = nullptr;
+    ASSERT_EQ(tetralight_lightmaps_open_memory(bytes.data(), bytes.size(), &other, &error),
+              TETRALIGHT_OK)
+        << error.message;
+    tetralight_const_array array{&error, 1, 2};
+    EXPECT_EQ(tetralight_lightmaps_get_array(other, TETRALIGHT_LIGHTMAP_AMBIENT_OCCLUSION, &array,
+                                             &error),
+              TETRALIGHT_NOT_THERE);
+    EXPECT_EQ(array.data, &error);
+    EXPECT_EQ(tetralight_lightmaps_get_array(other, 8, &array, &error), TETRALIGHT_BAD_VALUE);
+    EXPECT_EQ(tetralight_lightmaps_get_array(other, 0, nullptr, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_get_array(nullptr, 0, &array, &error), TETRALIGHT_BAD_POINTER);
+    tetralight_lightmaps_close(other);
+}
+
 TEST_F(CApiLightmaps, OpenFromMemory) {
     std::vector<std::byte> bytes = lightmap_file_bytes(data.view());
     tetralight_lightmaps* other = nullptr;

@@ -23,14 +23,14 @@ uint64_t hash(const glm::dvec3& position) {
 PositionTable::PositionTable(std::span<const glm::dvec3> positions)
     : positions_(positions), slots_(std::bit_ceil(2 * positions.size() + 1), kNoIndex) {
     for (uint32_t i = 0; i < positions.size(); ++i) {
-        uint64_t slot = hash(positions[i]) & last_slot();
+        size_t slot = static_cast<size_t>(hash(positions[i])) & last_slot();
         while (slots_[slot] != kNoIndex) slot = (slot + 1) & last_slot();
         slots_[slot] = i;
     }
 }
 
 uint32_t PositionTable::find(const glm::dvec3& position) const {
-    for (uint64_t slot = hash(position);; ++slot) {
+    for (auto slot = static_cast<size_t>(hash(position));; ++slot) {
         const uint32_t index = slots_[slot & last_slot()];
         if (index == kNoIndex || positions_[index] == position) return index;
     }

@@ -18,7 +18,7 @@ class PositionTable {
     [[nodiscard]] uint32_t find(const glm::dvec3& position) const;
 
   private:
-    [[nodiscard]] uint64_t last_slot() const { return slots_.size() - 1; }
+    [[nodiscard]] size_t last_slot() const { return slots_.size() - 1; }
 
     std::span<const glm::dvec3> positions_;
     std::vector<uint32_t> slots_;  // a power of two, at most half of them in use

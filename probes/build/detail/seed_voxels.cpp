@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// The voxels of a grid whose words are in memory.
+size_t voxel_count(const SeedGridHeader& grid) {
+    return static_cast<size_t>(seed_voxel_count(grid));
+}
+
 /// Copies words and the finer grids that they name.
 class WordCopier {
   public:
@@ -20,17 +25,17 @@ class WordCopier {
         : words_(volume.seed_grid), cell_places_(cell_places) {}
 
     std::vector<uint32_t> run(const SeedGridHeader& header, std::span<const uint32_t> voxels) {
-        const uint64_t end = kSeedGridHeaderWords + seed_voxel_count(header);
+        const size_t end = kSeedGridHeaderWords + voxel_count(header);
         next_place_ = end;
         add_header(header);
         for (const uint32_t voxel : voxels) add_word(words_[kSeedGridHeaderWords + voxel]);
         copied_.resize(end, 0);
         for (size_t grid = 0; grid < grids_.size(); ++grid) {
-            const uint64_t from = grids_[grid];
+            const size_t from = grids_[grid];
             const SeedGridHeader finer = seed_grid_header(words_, from);
             add_header(finer);
-            const uint64_t count = seed_voxel_count(finer);
-            for (uint64_t i = 0; i < count; ++i) add_word(words_[from + kSeedGridHeaderWords + i]);
+            const size_t count = voxel_count(finer);
+            for (size_t i = 0; i < count; ++i) add_word(words_[from + kSeedGridHeaderWords + i]);
         }
         return std::move(copied_);
     }
@@ -52,11 +57,11 @@ class WordCopier {
     }
 
     /// Finer grids follow in the order in which words name them first.
-    uint32_t place_of(uint64_t grid) {
+    uint32_t place_of(size_t grid) {
         const auto [entry, is_new] = places_.emplace(grid, static_cast<uint32_t>(next_place_));
         if (is_new) {
             grids_.push_back(grid);
-            next_place_ += kSeedGridHeaderWords + seed_voxel_count(seed_grid_header(words_, grid));
+            next_place_ += kSeedGridHeaderWords + voxel_count(seed_grid_header(words_, grid));
         }
         return entry->second;
     }
@@ -64,9 +69,9 @@ class WordCopier {
     std::span<const uint32_t> words_;
     std::span<const uint32_t> cell_places_;
     std::vector<uint32_t> copied_;
-    std::vector<uint64_t> grids_;
-    std::map<uint64_t, uint32_t> places_;
-    uint64_t next_place_ = 0;
+    std::vector<size_t> grids_;
+    std::map<size_t, uint32_t> places_;
+    size_t next_place_ = 0;
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ class SeedVoxels {
     /// Calls visit(cell, region) for each cell in which walks to positions of the box begin that
     /// the grid at `place` names, with the part of the box whose walks begin there.
     template <class Visit>
-    void for_each_start(const Box<glm::dvec3>& box, const Visit& visit, uint64_t place = 0,
+    void for_each_start(const Box<glm::dvec3>& box, const Visit& visit, size_t place = 0,
                         int level = 1) const {
         const SeedGridHeader grid = seed_grid_header(volume_.seed_grid, place);
         const VoxelRange range = this->range(grid, box);
@@ -54,11 +54,11 @@ class SeedVoxels {
 
     /// The same for one voxel of a grid.
     template <class Visit>
-    void visit_voxel(const SeedGridHeader& grid, uint64_t place, const std::array<uint32_t, 3>& at,
+    void visit_voxel(const SeedGridHeader& grid, size_t place, const std::array<uint32_t, 3>& at,
                      const Box<glm::dvec3>& box, int level, const Visit& visit) const {
         const Box<glm::dvec3> part = intersection_of(region(grid, at), box);
         if (part.min.x > part.max.x || part.min.y > part.max.y || part.min.z > part.max.z) return;
-        const uint64_t row = uint64_t{at[2]} * grid.size[1] + at[1];
+        const size_t row = size_t{at[2]} * grid.size[1] + at[1];
         const uint32_t word =
             volume_.seed_grid[place + kSeedGridHeaderWords + row * grid.size[0] + at[0]];
         if ((word & kFinerGrid) == 0) {
