@@ -7,6 +7,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/lightmap/detail/texel_values.h>
+#include <tetralight/probes/layer.h>
 
 namespace tetralight {
 namespace {
@@ -85,18 +86,19 @@ void write_relit(const WeightChange& change, float scale, std::vector<Texel>& te
 
 Status check_layer_texels(const Lightmaps& lightmaps) {
     const size_t layers = lightmaps.layers.size(), texels = lightmaps.irradiance.size();
+    const uint64_t expected = layer_element_count(layers, texels);
     const auto wrong = [&](const char* section, size_t count) {
         return Error{ErrorCode::Corrupt, section, "",
                      str_cat("section \"", section, "\": ", count, " elements for ", layers,
                              " layers of ", texels, " texels")};
     };
-    if (lightmaps.layer_irradiance.size() != layers * texels) {
+    if (lightmaps.layer_irradiance.size() != expected) {
         return wrong("layer_irradiance", lightmaps.layer_irradiance.size());
     }
     if (!lightmaps.light.empty() && lightmaps.light.size() != texels) {
         return wrong("light", lightmaps.light.size());
     }
-    if (!lightmaps.layer_light.empty() && lightmaps.layer_light.size() != layers * texels) {
+    if (!lightmaps.layer_light.empty() && lightmaps.layer_light.size() != expected) {
         return wrong("layer_light", lightmaps.layer_light.size());
     }
     return Ok{};

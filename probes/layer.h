@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -24,5 +25,12 @@ struct Layer {
 };
 
 static_assert(sizeof(Layer) == 128 && std::is_trivially_copyable_v<Layer>);
+
+/// Elements of a section that has one for each probe, or texel, in each layer. 64 bits: size_t may
+/// not hold the product of two counts of a corrupt file.
+[[nodiscard]] constexpr uint64_t layer_element_count(size_t layer_count,
+                                                     size_t element_count) noexcept {
+    return uint64_t{layer_count} * element_count;
+}
 
 }  // namespace tetralight

@@ -37,7 +37,8 @@ NoiseStatistics statistics_of(std::vector<float> errors) {
 bool knows_layer_errors(const ProbeVolumeView& volume) noexcept {
     return !volume.layer_errors.empty() &&
            volume.layer_errors.size() == volume.layer_irradiance.size() &&
-           volume.layer_errors.size() == volume.layers.size() * volume.positions.size();
+           volume.layer_errors.size() ==
+               layer_element_count(volume.layers.size(), volume.positions.size());
 }
 
 NoiseStatistics noise_of_layer(std::span<const IrradianceSh> light, std::span<const float> errors) {

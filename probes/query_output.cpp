@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/probes/query_output.h>
 
+#include <cstdint>
+
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 
 size_t StridedOutput::capacity(size_t count, size_t size) const noexcept {
-    const size_t one = (count - 1) * value_stride + size;
+    // Strides of callers may have a product that size_t cannot hold.
+    const uint64_t one = uint64_t{count - 1} * value_stride + size;
     if (memory.size() < one) return 0;
-    return answer_stride == 0 ? 1 : (memory.size() - one) / answer_stride + 1;
+    const size_t rest = memory.size() - static_cast<size_t>(one);
+    return answer_stride == 0 ? 1 : rest / answer_stride + 1;
 }
 
 ShOutput::ShOutput(std::span<IrradianceSh> answers) noexcept
@@ -56,8 +60,8 @@ Status check_strides(const char* name, const StridedOutput& output, size_t count
                      str_cat(name, " is not aligned to ", size, " bytes")};
     }
     if (answer_count <= 1) return Ok{};
-    const size_t answer = (count - 1) * output.value_stride + size;
-    const size_t array = (answer_count - 1) * output.answer_stride + size;
+    const uint64_t answer = uint64_t{count - 1} * output.value_stride + size;
+    const uint64_t array = uint64_t{answer_count - 1} * output.answer_stride + size;
     const bool is_apart = output.value_stride >= size && output.answer_stride >= size &&
                           (output.answer_stride >= answer || output.value_stride >= array);
     if (is_apart) return Ok{};

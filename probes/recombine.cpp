@@ -113,7 +113,8 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
         return Error{ErrorCode::InvalidArgument,
                      "the volume holds no layers (bake it with --layers to change its light)"};
     }
-    if (volume.layer_irradiance.size() != layer_count * volume.positions.size()) {
+    if (volume.layer_irradiance.size() !=
+        layer_element_count(layer_count, volume.positions.size())) {
         return Error{ErrorCode::Corrupt, "layer_irradiance", "",
                      str_cat("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
                              " elements for ", layer_count, " layers of ", volume.positions.size(),

@@ -29,7 +29,7 @@ Status check_transfer(const ProbeVolumeView& volume, const char* layer) {
 template <class LightOf>
 Status fill_layer(ProbeVolume& volume, uint32_t layer, LightOf light_of) {
     const size_t count = volume.positions.size();
-    if (volume.layer_irradiance.size() != volume.layers.size() * count) {
+    if (volume.layer_irradiance.size() != layer_element_count(volume.layers.size(), count)) {
         return Error{ErrorCode::Corrupt, "layer_irradiance", "",
                      "section \"layer_irradiance\" is missing"};
     }

@@ -76,8 +76,8 @@ template <class View, class ForEachMember>
     for (const SectionEntry& entry : *table) {
         const std::string name = section_name(entry);
         // Both fit: the table was checked against the size of the file.
-        const auto section = bytes.subspan(static_cast<size_t>(entry.offset),
-                                           static_cast<size_t>(entry.size()));
+        const auto section =
+            bytes.subspan(static_cast<size_t>(entry.offset), static_cast<size_t>(entry.size()));
         file.sections.push_back({name, entry.offset, entry.size(), entry.element_size});
         Status status = Ok{};
         if (name == "info") {

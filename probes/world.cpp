@@ -2,10 +2,10 @@
 #include <tetralight/probes/world.h>
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include <tetralight/base/contract.h>
+#include <tetralight/base/mutex.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 
@@ -67,16 +67,16 @@ struct World::State {
     std::shared_ptr<const WorldIndex> index;
     std::vector<std::string> paths;
 
-    mutable std::mutex mutex;  ///< of `tiles`
+    mutable Mutex mutex;  ///< of `tiles`
     std::shared_ptr<const WorldTiles> tiles;
 
     [[nodiscard]] std::shared_ptr<const WorldTiles> current() const {
-        const std::lock_guard lock(mutex);
+        const MutexLock lock(mutex);
         return tiles;
     }
 
     void replace(std::shared_ptr<const WorldTiles> next) {
-        const std::lock_guard lock(mutex);
+        const MutexLock lock(mutex);
         tiles.swap(next);  // the old ones are closed without the lock
     }
 };

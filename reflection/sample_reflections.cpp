@@ -28,7 +28,8 @@ CubeLevel level_of(const ReflectionsView& reflections, uint32_t probe, uint32_t 
     const uint64_t count = kCubeFaceCount * size * size;
     const std::span<const RadianceTexel> all = reflections.levels[level];
     if (count == 0 || (uint64_t{probe} + 1) * count > all.size()) return {};
-    return {all.subspan(probe * count, count), static_cast<uint32_t>(size)};
+    const auto texels_per_cube = static_cast<size_t>(count);
+    return {all.subspan(probe * texels_per_cube, texels_per_cube), static_cast<uint32_t>(size)};
 }
 
 glm::vec3 radiance_of(const RadianceTexel& texel) noexcept {

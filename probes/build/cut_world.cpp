@@ -65,7 +65,7 @@ Status lay_out_tiles(const glm::dvec3& tile_size, WorldIndex& index) {
             index.borders.push_back(index.info.box_min[a] + i * side);
         }
     }
-    index.tiles.resize(count + 1);
+    index.tiles.resize(static_cast<size_t>(count) + 1);  // at most kMostTiles
     return Ok{};
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <new>
 #include <optional>
@@ -49,8 +50,10 @@ std::string what_is_wrong(const ProbeVolumeView& part) {
 
 /// Returns out_of_resources if there is no memory of this size. (Containers end a program that is
 /// built without exceptions; docs/decisions/0037-memory-through-the-c-api.md.)
-Status check_memory(size_t byte_count) {
-    void* memory = ::operator new(byte_count, std::nothrow);
+Status check_memory(uint64_t byte_count) {
+    const bool is_addressable = byte_count <= std::numeric_limits<size_t>::max();
+    void* memory =
+        is_addressable ? ::operator new(static_cast<size_t>(byte_count), std::nothrow) : nullptr;
     ::operator delete(memory);
     if (memory != nullptr) return Ok{};
     return Error{ErrorCode::OutOfResources,
@@ -67,7 +70,7 @@ struct JoinedVolume::State {
                 hash = (hash ^ std::bit_cast<uint64_t>(p[axis])) * 0x9e3779b97f4a7c15u;
                 hash ^= hash >> 32;
             }
-            return hash;
+            return static_cast<size_t>(hash);
         }
     };
 
@@ -350,8 +353,8 @@ std::vector<detail::LightSource> light_sources(const MergedProbes& probes,
 }
 
 Status JoinedVolume::State::make_anew() {
-    constexpr size_t kBytesAProbe = 1200;  // at the peak, with all that a volume may have
-    size_t probe_count = 0;
+    constexpr uint64_t kBytesAProbe = 1200;  // at the peak, with all that a volume may have
+    uint64_t probe_count = 0;
     for (const auto& [name, part] : parts) probe_count += part.view.exact_positions.size();
     if (auto status = check_memory(probe_count * kBytesAProbe); !status) return status;
     MergedProbes probes = merged();

@@ -10,13 +10,14 @@
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/dering.h>
 #include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/layer.h>
 #include <tetralight/probes/section_error.h>
 #include <tetralight/probes/section_text.h>
 
 namespace tetralight::detail {
 namespace {
 
-Status check_count(std::string_view section, size_t count, size_t expected) {
+Status check_count(std::string_view section, size_t count, uint64_t expected) {
     if (count == 0 || count == expected) return Ok{};
     return section_error(section, str_cat(count, " elements instead of ", expected));
 }
@@ -66,11 +67,12 @@ Status check_counts(const ProbeVolumeView& v) {
         return section_error("layer_names",
                              str_cat(names, " names for ", v.layers.size(), " layers"));
     }
+    const uint64_t expected = layer_element_count(v.layers.size(), probes);
     for (const Status& status :
          {check_count("light_states", v.light_states.size(), v.lights.size()),
           check_count("occlusion_lights", v.occlusion_lights.size(), probes),
-          check_count("layer_irradiance", v.layer_irradiance.size(), v.layers.size() * probes),
-          check_count("layer_errors", v.layer_errors.size(), v.layers.size() * probes),
+          check_count("layer_irradiance", v.layer_irradiance.size(), expected),
+          check_count("layer_errors", v.layer_errors.size(), expected),
           check_count("transfer", v.transfer.size(), probes), check_count("sky", v.sky.size(), 1),
           check_count("dering", v.dering.size(), probes)}) {
         if (!status) return status;

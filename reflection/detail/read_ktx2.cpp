@@ -24,7 +24,7 @@ Error unsupported(std::string_view field, const std::string& what) {
 std::optional<std::span<const std::byte>> part_of(std::span<const std::byte> bytes, uint64_t offset,
                                                   uint64_t size) {
     if (offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
-    return bytes.subspan(offset, size);
+    return bytes.subspan(static_cast<size_t>(offset), static_cast<size_t>(size));
 }
 
 Result<Ktx2Header> read_header(std::span<const std::byte> bytes) {

@@ -15,6 +15,7 @@
 #include "tests/portability/check_answers.h"
 #include "tests/portability/check_cells.h"
 #include "tests/portability/check_files.h"
+#include "tests/portability/check_sizes.h"
 
 namespace tetralight::portability {
 namespace {
@@ -64,6 +65,12 @@ void check_volume(const std::string& path, Totals& totals) {
         ++totals.wrong;
         std::printf("%s: its positions are joined by other cells\n", path.c_str());
     }
+    const auto bytes = read_file(file);
+    const std::string accepted = bytes ? check_sizes(*bytes) : "the file cannot be read";
+    if (!accepted.empty()) {
+        ++totals.wrong;
+        std::printf("%s: %s\n", path.c_str(), accepted.c_str());
+    }
     ++totals.volumes;
 }
 
@@ -80,8 +87,9 @@ int run(int count, char** arguments) {
     if (totals.wrong > 0) {
         std::printf("%u checks failed\n", totals.wrong);
     } else {
-        std::printf("files, cells, %u answers of %u volumes by path and from memory: right\n",
-                    totals.answers, totals.volumes);
+        std::printf(
+            "files, cells, sizes, %u answers of %u volumes by path and from memory: right\n",
+            totals.answers, totals.volumes);
     }
     return totals.wrong == 0 ? 0 : 1;
 }

@@ -34,21 +34,33 @@ class Platform:
     options: tuple = ()  # of CMake
     target: str = "portability_test"
     program: str = "tests/portability/portability_test"  # in the folder of the build
+    # The program that uses the shared library; empty: that library is not built.
+    shared_program: str = ""
     # The command that runs the program, before it; None: it is only compiled.
     runner: tuple | None = ()
     environment: dict = dataclasses.field(default_factory=dict)
+    # Highway's namespace of the processor, which functions of the program must be in.
+    vectors: str = ""
     # Runs the program in another way: run(platform, folder, names) returns (is_right, text).
     run: object = None
 
 
 PLATFORMS = [
-    Platform("linux", "Linux, x86-64, Highway", "g++"),
+    Platform("linux", "Linux, x86-64, Highway", "g++", shared_program="tests/portability/portability_shared"),
+    Platform("clang14", "Linux, x86-64, Highway", "clang++-14"),
+    Platform("clang16", "Linux, x86-64, Highway", "clang++-16"),
+    Platform("libcxx", "Linux, x86-64, Highway, libc++", "clang++-16", options=("-DCMAKE_CXX_FLAGS=-stdlib=libc++",)),
+    Platform("linux32", "Linux, x86, 32 bits", "g++-12", toolchain="linux32"),
+    Platform("aarch64", "Linux, ARM, 64 bits, NEON by Highway", "aarch64-linux-gnu-g++", toolchain="aarch64",
+             runner=("qemu-aarch64-static",), vectors="N_NEON"),
     Platform("mingw64", "Windows, 64 bits", "x86_64-w64-mingw32-g++-posix", toolchain="mingw64",
-             program="tests/portability/portability_test.exe", runner=("/usr/lib/wine/wine64",),
+             program="tests/portability/portability_test.exe",
+             shared_program="tests/portability/portability_shared.exe", runner=("/usr/lib/wine/wine64",),
              environment={"WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all", "DISPLAY": "",
                           "WINEDLLOVERRIDES": "mscoree,mshtml="}),
     Platform("mingw32", "Windows, 32 bits", "i686-w64-mingw32-g++-posix", toolchain="mingw32",
-             program="tests/portability/portability_test.exe", runner=None),
+             program="tests/portability/portability_test.exe",
+             shared_program="tests/portability/portability_shared.exe", runner=None),
 ]
 
 
@@ -70,9 +82,9 @@ def call(command, log, **options):
 
 def compiler_version(platform):
     text = subprocess.run([platform.compiler, "--version"], capture_output=True, text=True).stdout
-    first = text.split("\n")[0]
-    number = re.search(r"\d+\.\d+(\.\d+)?", first)
-    return f"{platform.compiler} {number[0] if number else first}"
+    # "g++ (Debian 12.2.0-14) 12.2.0", "x86_64-w64-mingw32-g++-posix (GCC) 12-posix", "clang version 16.0.6 (15)"
+    number = re.search(r"(?:\) |version )(\d+(\.\d+)*)", text)
+    return f"{platform.compiler} {number[1]}" if number else platform.compiler
 
 
 def build(platform, folder, log):
@@ -81,8 +93,9 @@ def build(platform, folder, log):
                "-DTETRALIGHT_BUILD_PORTABILITY_TEST=ON", *platform.options]
     if platform.toolchain:
         command += ["--toolchain", ROOT / "cmake" / "toolchains" / f"{platform.toolchain}.cmake"]
+    targets = [platform.target, *(["portability_shared"] if platform.shared_program else [])]
     return (call(command, log, cwd=ROOT) and
-            call(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", platform.target], log))
+            call(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", *targets], log))
 
 
 def count_warnings(path):
@@ -90,14 +103,12 @@ def count_warnings(path):
     return len(re.findall(r"(?m)^\S+:\d+:\d+: (?:error|warning): .*\[-W", path.read_text(errors="replace")))
 
 
-def run_program(platform, folder, names):
-    """Returns whether the test passed, and its last line."""
-    if platform.run:
-        return platform.run(platform, folder, names)
+def run_program(platform, folder, program, names):
+    """Returns whether a program passed, and its last line."""
     work = folder / "work"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
-    command = [*platform.runner, folder / platform.program, "work", VECTORS, *names]
+    command = [*platform.runner, folder / program, "work", VECTORS, *names]
     try:
         ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
                                capture_output=True, timeout=MOST_SECONDS)
@@ -107,6 +118,15 @@ def run_program(platform, folder, names):
     if ended.returncode != 0:
         print(ended.stdout, ended.stderr, sep="", file=sys.stderr)
     return ended.returncode == 0, lines[-1]
+
+
+def run_programs(platform, folder, names):
+    """Returns whether all programs passed, and their last lines."""
+    if platform.run:
+        return platform.run(platform, folder, names)
+    programs = [platform.program, *([platform.shared_program] if platform.shared_program else [])]
+    results = [run_program(platform, folder, program, names) for program in programs]
+    return all(is_right for is_right, _ in results), "; ".join(line for _, line in results)
 
 
 def missing_command(platform):
@@ -138,7 +158,10 @@ def try_platform(platform, names):
         outcome.ran = "compiled only"
         outcome.failed = False
         return outcome
-    is_right, outcome.ran = run_program(platform, folder, names)
+    if platform.vectors and platform.vectors.encode() not in (folder / platform.program).read_bytes():
+        outcome.ran = f"lacks the vector code {platform.vectors}"
+        return outcome
+    is_right, outcome.ran = run_programs(platform, folder, names)
     outcome.failed = not is_right
     return outcome
 

@@ -19,8 +19,8 @@ const std::vector<std::string> kShipSet = {"base",     "probes",     "lppv",
                                            "lightmap", "reflection", "runtime"};
 
 bool is_shipped(const fs::path& file) {
-    for (const char* offline : {"base/hash/", "base/json/", "base/process/", "lppv/vdb/",
-                                "probes/programs/"}) {
+    for (const char* offline :
+         {"base/hash/", "base/json/", "base/process/", "lppv/vdb/", "probes/programs/"}) {
         if (file.generic_string().starts_with(offline)) return false;
     }
     return true;
