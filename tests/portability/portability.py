@@ -39,8 +39,8 @@ class Platform:
     environment: dict = dataclasses.field(default_factory=dict)
     # Highway's namespace of the processor, which functions of the program must be in.
     vectors: str = ""
-    # Runs the program in another way: run(platform, folder, names) returns (is_right, text).
-    run: object = None
+    # In Node: a script of this folder that takes the program.
+    script: str = ""
 
 
 PLATFORMS = [
@@ -57,6 +57,8 @@ PLATFORMS = [
                           "WINEDLLOVERRIDES": "mscoree,mshtml="}),
     Platform("mingw32", "Windows, 32 bits", "i686-w64-mingw32-g++-posix", toolchain="mingw32",
              program="tests/portability/portability_test.exe", runner=None),
+    Platform("wasm32", "WebAssembly, 128-bit vectors by Highway", "clang++-16", toolchain="wasm32",
+             target="tetralight_wasm", program="runtime/wasm/tetralight.wasm", script="wasm_test.mjs"),
 ]
 
 
@@ -100,12 +102,12 @@ def count_warnings(path):
 
 def run_program(platform, folder, names):
     """Returns whether the test passed, and its last line."""
-    if platform.run:
-        return platform.run(platform, folder, names)
     work = folder / "work"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
     command = [*platform.runner, folder / platform.program, "work", VECTORS, *names]
+    if platform.script:
+        command = ["node", ROOT / "tests" / "portability" / platform.script, folder / platform.program, VECTORS, *names]
     try:
         ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
                                capture_output=True, timeout=MOST_SECONDS)
@@ -119,7 +121,7 @@ def run_program(platform, folder, names):
 
 def missing_command(platform):
     """The name of a command that is not installed; None if all are."""
-    for command in (platform.compiler, *(platform.runner or ())[:1]):
+    for command in (platform.compiler, *(platform.runner or ())[:1], *(["node"] if platform.script else [])):
         if not shutil.which(command):
             return command
     return None
@@ -142,7 +144,7 @@ def try_platform(platform, names):
         print(log_path.read_text(errors="replace")[-4000:], file=sys.stderr)
         return outcome
     outcome.built = f"{time.monotonic() - start:.0f} s"
-    if platform.runner is None and platform.run is None:
+    if platform.runner is None:
         outcome.ran = "compiled only"
         outcome.failed = False
         return outcome
