@@ -240,7 +240,7 @@ class Bake:
     def cancel(self) -> None:
         """Ends the bake; does nothing if it is over."""
         try:
-            self._client._service.post(f"/v1/bakes/{quoted(self.id)}/cancel", {}, True)
+            self._client._service.send("POST", f"/v1/bakes/{quoted(self.id)}/cancel", may_repeat=True)
         except Error as error:
             if error.code != "is_over":
                 raise
