@@ -41,10 +41,16 @@ def design(volume, places, normals):
 
 
 def fit(matrix, measured, noise):
-    """Weights, and their standard errors. Each row counts by the noise of its measurement."""
-    deviation = noise * numpy.maximum(measured, 0.02 * measured.mean())
-    rows, values = matrix / deviation[:, None], measured / deviation
-    weights = numpy.linalg.lstsq(rows, values, rcond=None)[0]
+    """Weights, and their standard errors.
+
+    Noise grows with the light, so that dim rows count more. The light of the last fit says how much: with that of the
+    measurement, rows that are too dark by chance would count most."""
+    light = numpy.full(len(measured), measured.mean())
+    for _ in range(4):
+        deviation = noise * numpy.maximum(light, 0.02 * measured.mean())
+        rows, values = matrix / deviation[:, None], measured / deviation
+        weights = numpy.linalg.lstsq(rows, values, rcond=None)[0]
+        light = matrix @ weights
     return weights, numpy.sqrt(numpy.diag(numpy.linalg.inv(rows.T @ rows)))
 
 

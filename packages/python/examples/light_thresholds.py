@@ -65,9 +65,9 @@ def draw(figures, path):
     colors = ["#3a7d44" if figure.is_kept else "#b3261e" for figure in figures]
     bars = axes.barh([NAMES[figure.name] for figure in figures], shares, color=colors, height=0.6)
     labels = [f"{figure.value:.2%} of {figure.limit:.2%}" for figure in figures]
-    axes.bar_label(bars, labels, padding=4)
-    axes.axvline(1.0, color="black", linewidth=1)
-    axes.set_xlim(0, 1.35 * max([1.0, *shares]))
+    axes.axvline(1.0, color="black", linewidth=1, zorder=0)
+    axes.bar_label(bars, labels, padding=4, bbox={"color": "white", "pad": 1})
+    axes.set_xlim(0, 1.5 * max([1.0, *shares]))
     axes.set_xlabel("measured / limit")
     axes.invert_yaxis()
     picture.savefig(path, dpi=110)
