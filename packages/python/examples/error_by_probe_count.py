@@ -76,6 +76,8 @@ def draw(results, path):
                 label=f"error ~ probes$^{{{exponent:.2f}}}$")
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
     axes.yaxis.set_minor_formatter(PercentFormatter(1.0, decimals=0))
+    axes.set_xticks(counts, [f"{count:.0f}" for count in counts])
+    axes.set_xticks([], minor=True)
     axes.set_xlabel("probes")
     axes.set_ylabel("mean error / mean irradiance")
     axes.grid(True, which="both", linewidth=0.3)
