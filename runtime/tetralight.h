@@ -42,9 +42,9 @@
 #define TETRALIGHT_VERSION_NUMBER \
     (TETRALIGHT_VERSION_MAJOR * 10000 + TETRALIGHT_VERSION_MINOR * 100 + TETRALIGHT_VERSION_PATCH)
 
-/* Marks the functions of the C API. Empty for the static libraries that this project builds. Define
- * TETRALIGHT_SHARED where a shared library is built or used, and TETRALIGHT_BUILDING_SHARED too
- * where it is built. */
+/* Marks the functions of the C API. Define TETRALIGHT_SHARED in programs that use the shared
+ * library; those that link the static libraries need nothing. Where a shared library of one's own is
+ * built from the sources, define TETRALIGHT_BUILDING_SHARED too. */
 #if !defined(TETRALIGHT_SHARED)
 #define TETRALIGHT_API
 #elif defined(_WIN32) && defined(TETRALIGHT_BUILDING_SHARED)

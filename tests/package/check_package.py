@@ -6,6 +6,7 @@ check_package.py consumer PREFIX VOLUME SOURCES
 check_package.py guide PREFIX VOLUME GUIDE
 check_package.py example PREFIX VOLUME SOURCE
 check_package.py components PREFIX
+check_package.py shared PREFIX VOLUME SOURCES
 check_package.py debian PREFIX SHIP_BUILD
 check_package.py folders PREFIX
 check_package.py subproject SOURCES
@@ -69,17 +70,21 @@ def report_size(program, name):
     print(f"{name}: {os.path.getsize(program)} bytes, stripped")
 
 
+def copy_consumer(sources, folder):
+    """main.c and the consumer of the C API, which it runs."""
+    for name in ("c_api_consumer.c", "c_api_consumer.h"):
+        target = Path(folder) / "tests/runtime" / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(Path(sources) / "tests/runtime" / name, target)
+    (Path(folder) / "main.c").write_text(
+        '#include "tests/runtime/c_api_consumer.h"\n'
+        "int main(int count, char** arguments) {\n"
+        "    return count == 2 ? run_c_api_consumer(arguments[1]) : 99;\n}\n")
+
+
 def check_consumer(prefix, volume, sources):
-    tests = Path(sources) / "tests/runtime"
     with tempfile.TemporaryDirectory() as folder:
-        for name in ("c_api_consumer.c", "c_api_consumer.h"):
-            target = Path(folder) / "tests/runtime" / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(tests / name, target)
-        (Path(folder) / "main.c").write_text(
-            '#include "tests/runtime/c_api_consumer.h"\n'
-            "int main(int count, char** arguments) {\n"
-            "    return count == 2 ? run_c_api_consumer(arguments[1]) : 99;\n}\n")
+        copy_consumer(sources, folder)
         flags = run("pkg-config --cflags --libs tetralight", folder, prefix).split()
         run(["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-I.", "main.c",
              "tests/runtime/c_api_consumer.c", "-o", "consumer"] + flags + ["-Wl,--gc-sections"],
@@ -142,6 +147,30 @@ def check_components(prefix):
                                 env=environment(prefix), stderr=subprocess.PIPE,
                                 stdout=subprocess.PIPE)
         assert failed.returncode != 0 and "teapot" in failed.stderr, failed.stderr
+
+
+def check_shared(prefix, volume, sources):
+    """The shared library serves programs in C that CMake and pkg-config lead to it."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy_consumer(sources, folder)
+        (Path(folder) / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES C CXX)\n"
+            "find_package(tetralight REQUIRED COMPONENTS shared)\n"
+            "add_executable(x main.c tests/runtime/c_api_consumer.c)\n"
+            "target_include_directories(x PRIVATE .)\n"
+            "target_link_libraries(x PRIVATE tetralight::shared m)\n")
+        run("cmake -S . -B build && cmake --build build", folder, prefix)
+        run(["build/x", volume], folder, prefix)
+        assert "libtetralight.so.0" in run("readelf -d build/x", folder, prefix)
+        flags = run("pkg-config --cflags --libs tetralight-shared", folder, prefix).split()
+        folders = [flag[2:] for flag in flags if flag.startswith("-L")]
+        run(["cc", "-std=c99", "-I.", "main.c", "tests/runtime/c_api_consumer.c", "-o", "consumer",
+             *flags, "-lm"], folder, prefix)
+        run(f"LD_LIBRARY_PATH={folders[0]} ./consumer {volume}", folder, prefix)
+        library = next(Path(prefix).rglob("libtetralight.so.*.*.*"))
+        copy = Path(folder) / library.name
+        shutil.copy(library, copy)
+        report_size(str(copy), "the shared library")
 
 
 def check_folders(prefix):
@@ -235,6 +264,6 @@ def check_debian(prefix, ship):
 if __name__ == "__main__":
     checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
               "example": check_example,
-              "components": check_components, "debian": check_debian,
+              "components": check_components, "shared": check_shared, "debian": check_debian,
               "folders": check_folders, "subproject": check_subproject, "unity": check_unity}
     checks[sys.argv[1]](*sys.argv[2:])

@@ -46,7 +46,7 @@ class Arrays(unittest.TestCase):
             np.testing.assert_array_equal(views[name], copies[name][1:])
 
     def test_free_the_memory_with_the_last_view(self):
-        handle = weakref.ref(self.volume._handle)
+        handle = weakref.ref(self.volume._contents.handle)
         view = self.volume.positions[3]
         self.volume = None
         gc.collect()
@@ -54,6 +54,14 @@ class Arrays(unittest.TestCase):
         del view
         gc.collect()
         self.assertIsNone(handle())
+
+    def test_close_frees_the_memory_without_views(self):
+        handle = weakref.ref(self.volume._contents.handle)
+        copy = np.array(self.volume.positions)
+        self.volume.close()
+        gc.collect()
+        self.assertIsNone(handle())
+        self.assertEqual(copy.shape, (self.volume.probe_count, 3))
 
     def test_outlive_close(self):
         positions, irradiance = self.volume.positions, self.volume.irradiance

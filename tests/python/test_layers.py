@@ -77,7 +77,7 @@ class Relight(unittest.TestCase):
     def test_a_sky_is_linear(self):
         volume = self.open()
         self.assertTrue(volume.can_relight_sky)
-        volume.recombine(sun=0)
+        volume.recombine({name: 0 for name in volume.layers if name != "sky"})
         volume.relight(sky=1)
         one = volume.irradiance
         volume.relight(sky=(2, 4, 8))

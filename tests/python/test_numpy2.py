@@ -37,7 +37,8 @@ def system_folder():
 
 class NumPy2(unittest.TestCase):
     def in_system(self, root, *command):
-        finished = subprocess.run(["chroot", str(root), *command], capture_output=True, text=True)
+        environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"}
+        finished = subprocess.run(["chroot", str(root), *command], env=environment, capture_output=True, text=True)
         self.assertEqual(finished.returncode, 0, finished.stdout + finished.stderr)
         return finished.stdout
 

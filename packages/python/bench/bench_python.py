@@ -91,6 +91,12 @@ def bench_query(path, repetitions):
             lambda: baseline.run_fresh(threads), f"C++ batch, {threads} thread(s), new memory", repetitions)
 
 
+def bench_one(path, repetitions):
+    volume, position = tetralight.open(path), np.array((0, 1.5, 0), np.float32)
+    times = [seconds(lambda: [volume.query(position) for _ in range(1000)]) / 1000 for _ in range(repetitions)]
+    report("python.query.one", 1e6 * statistics.median(times), "microseconds")
+
+
 def run_python(code, path):
     """What new processes print."""
     output = subprocess.run([sys.executable, "-c", code, path], check=True, capture_output=True, text=True).stdout
@@ -134,6 +140,7 @@ def bench_size():
 def main(path, repetitions):
     bench_start(path, repetitions)
     bench_query(path, repetitions)
+    bench_one(path, repetitions)
     bench_size()
 
 

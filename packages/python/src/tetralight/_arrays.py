@@ -2,11 +2,11 @@
 """Checks arrays of callers, and shows memory of the library as arrays."""
 from __future__ import annotations
 
+import math
 from typing import Any, Sequence
 
 import numpy as np
 
-from tetralight import _declarations as c
 from tetralight.errors import BadValue
 
 FloatArray = np.ndarray[Any, np.dtype[np.float32]]
@@ -102,7 +102,7 @@ def output(name: str, array: Any, shape: tuple[int, ...], dtype: Any) -> AnyArra
 def rows(name: str, array: AnyArray, row_axes: int) -> AnyArray:
     """The array with its first axes as one, without a copy: rows whose numbers have no gaps."""
     row_shape = array.shape[array.ndim - row_axes :]
-    count = int(np.prod(array.shape[: array.ndim - row_axes], dtype=np.int64))
+    count = math.prod(array.shape[: array.ndim - row_axes])
     if count == 0:
         return array.reshape((0,) + row_shape)
     flat = array.view()
@@ -122,25 +122,16 @@ def rows(name: str, array: AnyArray, row_axes: int) -> AnyArray:
     return flat
 
 
-def size_of(flat: AnyArray) -> tuple[int, int]:
-    """Bytes of rows from the first to the last number, and from one row to the next."""
-    row = flat.dtype.itemsize
-    for n in flat.shape[1:]:
-        row *= n
-    if flat.shape[0] < 2:
-        return row * flat.shape[0], row
-    return (flat.shape[0] - 1) * flat.strides[0] + row, flat.strides[0]
+class Rows:
+    """Where the rows of an array are. Keeps the array."""
 
+    def __init__(self, flat: AnyArray) -> None:
+        self.array = flat
+        self.row = flat.dtype.itemsize * math.prod(flat.shape[1:])
+        self.stride = flat.strides[0] if len(flat) > 1 else self.row
+        self.pointer: int = flat.__array_interface__["data"][0]
 
-def c_array(flat: AnyArray | None) -> c.Array:
-    if flat is None:
-        return c.Array()
-    size, stride = size_of(flat)
-    return c.Array(flat.ctypes.data, size, stride)
-
-
-def c_const_array(flat: AnyArray | None) -> c.ConstArray:
-    if flat is None:
-        return c.ConstArray()
-    size, stride = size_of(flat)
-    return c.ConstArray(flat.ctypes.data, size, stride)
+    def part(self, begin: int, end: int) -> tuple[int, int, int]:
+        """Address, bytes and stride of some rows: the members of tetralight_array."""
+        size = (end - begin - 1) * self.stride + self.row if end > begin else 0
+        return self.pointer + begin * self.stride, size, self.stride

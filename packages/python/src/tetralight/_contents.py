@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
-import json
+import math
 from typing import Any, Sequence
 
 import numpy as np
@@ -20,7 +20,7 @@ from tetralight.errors import NotThere
 
 class Contents:
     def __init__(self, handle: Handle, probe_count: int, world_origin: tuple[float, ...]) -> None:
-        self._handle = handle
+        self.handle = handle
         self._probe_count = probe_count
         self._world_origin = world_origin
         self._is_changed = False
@@ -30,14 +30,14 @@ class Contents:
         """None if the volume does not hold the array."""
         array = c.ConstArray()
         try:
-            call(library.tetralight_get_array, self._handle.pointer, which, ctypes.byref(array))
+            call(library.tetralight_get_array, self.handle.pointer, which, ctypes.byref(array))
         except NotThere:
             return None
-        row_bytes = int(np.prod(row)) * np.dtype(dtype).itemsize
+        row_bytes = math.prod(row) * np.dtype(dtype).itemsize
         count = (array.size - row_bytes) // array.stride + 1
         item = np.dtype(dtype).itemsize
-        inner = [item * int(np.prod(row[axis + 1 :])) for axis in range(len(row))]
-        return view_of(self._handle, array.data, (count, *row), dtype, (array.stride, *inner))
+        inner = [item * math.prod(row[axis + 1 :]) for axis in range(len(row))]
+        return view_of(self.handle, array.data, (count, *row), dtype, (array.stride, *inner))
 
     def _text(self, which: int) -> str:
         view = self._view(which, (), np.uint8)
@@ -80,8 +80,26 @@ class Contents:
         return self._text(c.ARRAY_METADATA)
 
     def metadata(self) -> dict[str, Any]:
+        import json
+
         made: dict[str, Any] = json.loads(self._metadata or "{}")
         return made
+
+    def ambient(self) -> AnyArray:
+        return np.array(self._details().ambient, np.float32).reshape(9, 3)
+
+    def _details(self) -> c.Details:
+        details = c.Details()
+        call(library.tetralight_get_details, self.handle.pointer, ctypes.byref(details))
+        return details
+
+    def layers(self, count: int) -> dict[str, float]:
+        found = {}
+        for index in range(count):
+            layer = c.Layer()
+            call(library.tetralight_get_layer, self.handle.pointer, index, ctypes.byref(layer))
+            found[layer.name.decode("utf-8", "replace")] = float(layer.weight)
+        return found
 
     def irradiance(self) -> AnyArray:
         """(probe, 9, 3)"""
@@ -98,9 +116,7 @@ class Contents:
         halves = self._view(c.ARRAY_HALVES, (32,), np.float16)
         if halves is None:
             return read_only(np.zeros((0, 9, 3), np.float32))
-        details = c.Details()
-        call(library.tetralight_get_details, self._handle.pointer, ctypes.byref(details))
-        light = halves[:, :27].astype(np.float32) * np.float32(details.half_scale)
+        light = halves[:, :27].astype(np.float32) * np.float32(self._details().half_scale)
         return read_only(light.reshape(-1, 9, 3))
 
     def prepare_change(self) -> None:

@@ -82,15 +82,20 @@ class Task:
 
     def __init__(self, volume: int, positions: AnyArray, light: Light, options: Options) -> None:
         shape = positions.shape[:-1]
+        radii = optional("radii", options.radii, shape, np.float32)
+        check_receivers(radii, options.normal_offset)
         self.volume = volume
-        self.positions = self.input_rows("positions", positions)
-        self.cells = light.cells.reshape(-1)
-        self.sh = _arrays.rows("out", light.sh, 2)
-        self.occlusion = _arrays.rows("out.occlusion", light.occlusion, 1)
-        self.layers = self.optional("rendering_layers", options.rendering_layers, shape, np.uint32)
-        self.radii = self.optional("radii", options.radii, shape, np.float32)
-        self.normals = self.surface_normals(options.normals, shape)
-        check_receivers(self.radii, options.normal_offset)
+        self.count = light.cells.size
+        arrays = {
+            "positions": input_rows("positions", positions),
+            "hints": light.cells.reshape(-1),
+            "sh": _arrays.rows("out", light.sh, 2),
+            "occlusion": _arrays.rows("out.occlusion", light.occlusion, 1),
+            "rendering_layers": optional("rendering_layers", options.rendering_layers, shape, np.uint32),
+            "radii": radii,
+            "normals": surface_normals(options.normals, shape),
+        }
+        self.rows = {name: _arrays.Rows(array) for name, array in arrays.items() if array is not None}
         self.batch = c.Batch(
             sh_format=list(FORMATS).index(light.format),
             outside=choice("outside", options.outside, OUTSIDE),
@@ -99,56 +104,58 @@ class Task:
             normal_offset=options.normal_offset,
         )
 
-    @staticmethod
-    def input_rows(name: str, array: AnyArray) -> AnyArray:
-        """Inputs with other gaps than the library knows are copied."""
-        try:
-            return _arrays.rows(name, array, 1)
-        except BadValue:
-            return np.ascontiguousarray(array).reshape(-1, array.shape[-1])
-
-    @staticmethod
-    def optional(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray | None:
-        return None if values is None else _arrays.each(name, values, shape, dtype).reshape(-1)
-
-    @staticmethod
-    def surface_normals(normals: Any, shape: tuple[int, ...]) -> AnyArray | None:
-        if normals is None:
-            return None
-        array = _arrays.vectors("normals", normals)
-        if array.shape not in ((3,), shape + (3,)):
-            raise BadValue(f"normals: expected the shape {shape + (3,)} or (3,), given {array.shape}")
-        return np.ascontiguousarray(np.broadcast_to(array, shape + (3,))).reshape(-1, 3)
-
     def answer(self, begin: int, end: int) -> c.Report:
-        part = slice(begin, end)
         batch = c.Batch.from_buffer_copy(self.batch)
         batch.count = end - begin
-        batch.positions = _arrays.c_const_array(self.positions[part])
-        batch.hints = _arrays.c_array(self.cells[part])
-        batch.sh = _arrays.c_array(self.sh[part])
-        batch.occlusion = _arrays.c_array(self.occlusion[part])
-        for name, array in (("rendering_layers", self.layers), ("radii", self.radii), ("normals", self.normals)):
-            if array is not None:
-                setattr(batch, name, _arrays.c_const_array(array[part]))
+        for name, rows in self.rows.items():
+            setattr(batch, name, rows.part(begin, end))
         report = c.Report()
         call(library.tetralight_query_batch, self.volume, ctypes.byref(batch), ctypes.byref(report))
         return report
 
 
+def input_rows(name: str, array: AnyArray) -> AnyArray:
+    """Inputs with other gaps than the library knows are copied."""
+    try:
+        return _arrays.rows(name, array, 1)
+    except BadValue:
+        return np.ascontiguousarray(array).reshape(-1, array.shape[-1])
+
+
+def optional(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray | None:
+    return None if values is None else _arrays.each(name, values, shape, dtype).reshape(-1)
+
+
+def surface_normals(normals: Any, shape: tuple[int, ...]) -> AnyArray | None:
+    if normals is None:
+        return None
+    array = _arrays.vectors("normals", normals)
+    if array.shape not in ((3,), shape + (3,)):
+        raise BadValue(f"normals: expected the shape {shape + (3,)} or (3,), given {array.shape}")
+    return np.ascontiguousarray(np.broadcast_to(array, shape + (3,))).reshape(-1, 3)
+
+
 def answer(volume: int, positions: AnyArray, light: Light, options: Options) -> Light:
     """Fills `light`. Fails before the first answer if an argument is wrong."""
     task = Task(volume, positions, light, options)
-    count = len(task.positions)
-    task.answer(0, 0)
-    tasks = -(-count // TASK_SIZE)
-    reports: list[c.Report] = [c.Report()] * tasks
-
-    def run(number: int) -> None:
-        begin = number * TASK_SIZE
-        reports[number] = task.answer(begin, min(begin + TASK_SIZE, count))
-
-    parallel_for(tasks, run, thread_count(options.threads))
+    threads = thread_count(options.threads)
+    if task.count <= TASK_SIZE:
+        reports = [task.answer(0, task.count)]
+    else:
+        task.answer(0, 0)  # checks the options
+        reports = answer_in_parallel(task, threads)
     light.not_finite_count = sum(report.not_finite_count for report in reports)
     light.step_count = sum(report.step_count for report in reports)
     return light
+
+
+def answer_in_parallel(task: Task, threads: int) -> list[c.Report]:
+    count = -(-task.count // TASK_SIZE)
+    reports = [c.Report()] * count
+
+    def run(number: int) -> None:
+        begin = number * TASK_SIZE
+        reports[number] = task.answer(begin, min(begin + TASK_SIZE, task.count))
+
+    parallel_for(count, run, threads)
+    return reports

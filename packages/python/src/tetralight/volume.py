@@ -34,7 +34,6 @@ class Volume:
     light (`recombine`, `relight`) wait for the others."""
 
     def __init__(self, handle: Handle, name: str) -> None:
-        self._handle: Handle | None = handle
         self._gate = Gate()
         self.name = name
         info = c.Info()
@@ -53,25 +52,23 @@ class Volume:
         self.low: FloatArray = np.array(details.low)
         """The box of the probes."""
         self.high: FloatArray = np.array(details.high)
-        self.ambient: FloatArray = np.array(details.ambient, np.float32).reshape(9, 3)
-        """The light of positions without a probe: irradiance coefficients."""
         self.knows_walls = bool(details.knows_walls)
         """True if the volume knows which walls hide its probes."""
         self.can_relight_sky = bool(details.can_relight_sky)
         self.can_relight_sun = bool(details.can_relight_sun)
         self._light_count: int = details.light_count
-        self._contents = Contents(handle, self.probe_count, tuple(details.world_origin))
+        self._contents: Contents | None = Contents(handle, self.probe_count, tuple(details.world_origin))
 
     # Opening and closing
 
     def close(self) -> None:
         """Calls fail with `Closed` from now on. Arrays that show the volume stay valid: the memory is
         freed with the last of them."""
-        self._handle = None
+        self._contents = None
 
     @property
     def is_closed(self) -> bool:
-        return self._handle is None
+        return self._contents is None
 
     def __enter__(self) -> Volume:
         return self
@@ -79,11 +76,11 @@ class Volume:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _open_handle(self) -> Handle:
-        handle = self._handle
-        if handle is None:
+    def _open_contents(self) -> Contents:
+        contents = self._contents
+        if contents is None:
             raise Closed(f"{self.name}: the volume is closed")
-        return handle
+        return contents
 
     def __len__(self) -> int:
         return self.probe_count
@@ -102,10 +99,11 @@ class Volume:
     # Arrays, which never change
 
     def _read(self, read: Callable[[Contents], Result]) -> Result:
-        self._open_handle()
+        """Calls a function that may run beside others that read."""
+        contents = self._open_contents()
         self._gate.enter()
         try:
-            return read(self._contents)
+            return read(contents)
         finally:
             self._gate.leave()
 
@@ -141,6 +139,11 @@ class Volume:
     def standard_error(self) -> AnyArray:
         """(probe): the relative standard error of its irradiance, 0 = not known; a read-only view."""
         return self._read(lambda contents: contents.standard_error)
+
+    @property
+    def ambient(self) -> FloatArray:
+        """(9, 3): the light of positions without a probe, irradiance coefficients."""
+        return self._read(lambda contents: contents.ambient())
 
     @property
     def metadata(self) -> dict[str, Any]:
@@ -184,12 +187,7 @@ class Volume:
             format, outside, fade_distance, walls, rendering_layers, radii, normals, normal_offset, threads
         )
         light = _query.outputs(points.shape[:-1], hints, out, format)
-        handle = self._open_handle()
-        self._gate.enter()
-        try:
-            return _query.answer(handle.pointer, points, light, options)
-        finally:
-            self._gate.leave()
+        return self._read(lambda contents: _query.answer(contents.handle.pointer, points, light, options))
 
     def lppv(
         self,
@@ -212,12 +210,7 @@ class Volume:
         layout: "four_slabs" or "seven_slabs"; format: "half" or "float".
         """
         box = proxy.box_of(low, high, resolution, world_from_box, quality, placement, layout, format)
-        handle = self._open_handle()
-        self._gate.enter()
-        try:
-            return proxy.fill(handle.pointer, box, layout, format)
-        finally:
-            self._gate.leave()
+        return self._read(lambda contents: proxy.fill(contents.handle.pointer, box, layout, format))
 
     # Lights and layers
 
@@ -225,27 +218,14 @@ class Volume:
     def lights(self) -> list[SceneLight]:
         """The lights of the scene. Of mixed lights the probes hold the bounces: the caller adds the direct
         light."""
-        handle = self._open_handle()
-        self._gate.enter()
-        try:
-            return [scene_light(handle.pointer, index) for index in range(self._light_count)]
-        finally:
-            self._gate.leave()
+        return self._read(
+            lambda contents: [scene_light(contents.handle.pointer, index) for index in range(self._light_count)]
+        )
 
     @property
     def layers(self) -> dict[str, float]:
         """The layers of light, such as "sky" or "light:lamp", and their weights; 1 = as baked."""
-        handle = self._open_handle()
-        self._gate.enter()
-        try:
-            found = {}
-            for index in range(self._layer_count):
-                layer = c.Layer()
-                call(library.tetralight_get_layer, handle.pointer, index, ctypes.byref(layer))
-                found[layer.name.decode("utf-8", "replace")] = float(layer.weight)
-            return found
-        finally:
-            self._gate.leave()
+        return self._read(lambda contents: contents.layers(self._layer_count))
 
     def recombine(self, weights: Any = None, /, **by_name: float) -> None:
         """Replaces the light by the sum of the layers times weights >= 0: an array with one weight for
@@ -286,22 +266,18 @@ class Volume:
 
     def _change(self, function: Any, *arguments: Any) -> None:
         """Calls a function that must run alone on the volume."""
-        handle = self._open_handle()
+        contents = self._open_contents()
         self._gate.close()
         try:
-            self._contents.prepare_change()
-            call(function, handle.pointer, *arguments)
+            contents.prepare_change()
+            call(function, contents.handle.pointer, *arguments)
         finally:
             self._gate.open()
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the volume with its present light to a .probes file."""
-        handle = self._open_handle()
-        self._gate.enter()
-        try:
-            call(library.tetralight_save, handle.pointer, os.fsencode(path))
-        finally:
-            self._gate.leave()
+        name = os.fsencode(path)
+        self._read(lambda contents: call(library.tetralight_save, contents.handle.pointer, name))
 
     # Pictures and files
 
