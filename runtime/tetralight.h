@@ -43,8 +43,8 @@
     (TETRALIGHT_VERSION_MAJOR * 10000 + TETRALIGHT_VERSION_MINOR * 100 + TETRALIGHT_VERSION_PATCH)
 
 /* Marks the functions of the C API. Define TETRALIGHT_SHARED in programs that use the shared
- * library; those that link the static libraries need nothing. Where a shared library of one's own
- * is built from the sources, define TETRALIGHT_BUILDING_SHARED too. */
+ * library; those that link the static libraries need nothing. Where a shared library of one's own is
+ * built from the sources, define TETRALIGHT_BUILDING_SHARED too. */
 #if !defined(TETRALIGHT_SHARED)
 #define TETRALIGHT_API
 #elif defined(_WIN32) && defined(TETRALIGHT_BUILDING_SHARED)
