@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -41,9 +43,22 @@ struct Baseline {
 
 /// Memory that is not filled with zeros first.
 template <class Value>
-std::unique_ptr<Value[]> unfilled(size_t count) {
-    return std::make_unique_for_overwrite<Value[]>(count);
-}
+class Unfilled {
+  public:
+    explicit Unfilled(size_t count) : memory_(std::malloc(count * sizeof(Value))), count_(count) {}
+
+    [[nodiscard]] std::span<Value> values() const {
+        return {static_cast<Value*>(memory_.get()), count_};
+    }
+
+  private:
+    struct Free {
+        void operator()(void* memory) const { std::free(memory); }
+    };
+
+    std::unique_ptr<void, Free> memory_;
+    size_t count_;
+};
 
 double seconds_of(const Baseline& baseline, std::span<uint32_t> cells,
                   std::span<IrradianceSh> light, std::span<glm::vec4> occlusion, size_t threads) {
@@ -95,11 +110,10 @@ __attribute__((visibility("default"))) double tetralight_baseline_run_fresh(void
     auto& baseline = *static_cast<Baseline*>(handle);
     const size_t count = baseline.positions.size();
     const auto begin = std::chrono::steady_clock::now();
-    const auto cells = unfilled<uint32_t>(count);
-    const auto light = unfilled<IrradianceSh>(count);
-    const auto occlusion = unfilled<glm::vec4>(count);
-    if (seconds_of(baseline, {cells.get(), count}, {light.get(), count}, {occlusion.get(), count},
-                   threads) < 0.0) {
+    const Unfilled<uint32_t> cells(count);
+    const Unfilled<IrradianceSh> light(count);
+    const Unfilled<glm::vec4> occlusion(count);
+    if (seconds_of(baseline, cells.values(), light.values(), occlusion.values(), threads) < 0.0) {
         return -1.0;
     }
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;

@@ -106,9 +106,9 @@ def run_python(code, path):
 IMPORT = """
 import time
 import numpy
-begin = time.perf_counter()
+begin = time.process_time()
 import tetralight
-print(time.perf_counter() - begin)
+print(time.process_time() - begin)
 """
 
 FIRST_QUERY = """
@@ -122,7 +122,7 @@ print(time.perf_counter() - begin)
 
 def bench_start(path, repetitions):
     for figure, code, what in (
-        ("python.import", IMPORT, "beyond the import of NumPy"),
+        ("python.import", IMPORT, "processor time beyond the import of NumPy"),
         ("python.first_query", FIRST_QUERY, "open a volume and query one position"),
     ):
         run_python(code, path)  # compiles the modules

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import threading
 from typing import Any, Callable, TypeVar
 
 import numpy as np
@@ -35,6 +36,7 @@ class Volume:
 
     def __init__(self, handle: Handle, name: str) -> None:
         self._gate = Gate()
+        self._changes = threading.Lock()  # of callers that change the light
         self.name = name
         info = c.Info()
         call(library.tetralight_get_info, handle.pointer, ctypes.byref(info))
@@ -231,6 +233,12 @@ class Volume:
         """Replaces the light by the sum of the layers times weights >= 0: an array with one weight for
         each layer, or a dictionary or keywords by name, in which a layer that is not named keeps its
         weight. Arrays from before keep the light that they show."""
+        with self._changes:
+            array = self._weights_of(weights, by_name)
+            self._change(library.tetralight_recombine, array.ctypes.data, len(array))
+
+    def _weights_of(self, weights: Any, by_name: dict[str, float]) -> FloatArray:
+        """One weight for each layer."""
         current = self.layers
         if weights is None or hasattr(weights, "keys"):
             chosen = {**dict(weights or {}), **by_name}
@@ -243,7 +251,7 @@ class Volume:
         array = np.ascontiguousarray(weights, np.float32)
         if array.shape != (self._layer_count,):
             raise BadValue(f"weights: expected the shape ({self._layer_count},), given {array.shape}")
-        self._change(library.tetralight_recombine, array.ctypes.data, len(array))
+        return array
 
     def relight(self, *, sky: Any = None, sun_direction: Any = None, sun_irradiance: Any = None) -> None:
         """Replaces the light of the sky and the sun, in a volume that was baked with transfer.
@@ -255,14 +263,17 @@ class Volume:
         """
         if (sun_direction is None) != (sun_irradiance is None):
             raise BadValue("sun_irradiance: expected sun_direction and sun_irradiance, given only one of them")
-        if sky is not None:
-            radiance = sky_coefficients(sky)
-            self._change(library.tetralight_relight_sky, radiance.ctypes.data)
+        radiance = None if sky is None else sky_coefficients(sky)
+        sun = None
         if sun_direction is not None:
             direction = three("sun_direction", sun_direction)
             direction /= max(float(np.linalg.norm(direction)), 1e-30)
-            irradiance = three("sun_irradiance", sun_irradiance)
-            self._change(library.tetralight_relight_sun, direction.ctypes.data, irradiance.ctypes.data)
+            sun = direction, three("sun_irradiance", sun_irradiance)
+        with self._changes:
+            if radiance is not None:
+                self._change(library.tetralight_relight_sky, radiance.ctypes.data)
+            if sun is not None:
+                self._change(library.tetralight_relight_sun, sun[0].ctypes.data, sun[1].ctypes.data)
 
     def _change(self, function: Any, *arguments: Any) -> None:
         """Calls a function that must run alone on the volume."""
