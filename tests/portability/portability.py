@@ -126,8 +126,6 @@ def run_program(platform, folder, program, names):
 
 def run_programs(platform, folder, names):
     """Returns whether all programs passed, and their last lines."""
-    if platform.run:
-        return platform.run(platform, folder, names)
     programs = [platform.program, *([platform.shared_program] if platform.shared_program else [])]
     results = [run_program(platform, folder, program, names) for program in programs]
     return all(is_right for is_right, _ in results), "; ".join(line for _, line in results)

@@ -65,7 +65,7 @@ def end(process):
 
 
 def processes_with(text):
-    """Command lines of running programs that contain a text."""
+    """Numbers of running processes whose command line contains a text."""
     found = []
     for path in Path("/proc").glob("[0-9]*/cmdline"):
         try:
@@ -73,5 +73,5 @@ def processes_with(text):
         except OSError:
             continue  # it has ended
         if text in line and int(path.parent.name) != os.getpid():
-            found.append(line)
+            found.append(int(path.parent.name))
     return found

@@ -4,6 +4,8 @@ import hashlib
 import http.server
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import threading
@@ -199,9 +201,9 @@ class Files(ServiceCase):
         data = path.read_bytes()
         identity = client.upload("volumes", path)
         self.assertEqual(identity, hashlib.sha256(data).hexdigest())
-        self.assertEqual(client.upload("volumes", data, "a/b c?"), identity)
-        self.assertEqual([client.download(identity), client.download("a/b c?")], [data, data])
-        client.delete("volumes", "a/b c?")
+        self.assertEqual(client.upload("volumes", data, "a b c?"), identity)
+        self.assertEqual([client.download(identity), client.download("a b c?")], [data, data])
+        client.delete("volumes", "a b c?")
         self.assertEqual(client.volumes(), [])
 
     def test_lists_have_more_than_one_page(self):
@@ -210,12 +212,12 @@ class Files(ServiceCase):
         identities = {client.upload("groups", data) for data in paths}
         get = client._service.get
         client._service.get = lambda path: get(path + ("&" if "?" in path else "?") + "limit=1")
-        self.assertEqual({entry["id"] for entry in client.list("groups")}, identities)
+        self.assertEqual({entry["id"] for entry in client.files("groups")}, identities)
 
     def test_damaged_and_too_large_uploads(self):
         client = self.client("--max-upload", "1000000")
         self.assert_problem(tetralight.BadValue, "bad_data", "body", lambda: client.upload("volumes", b"nothing"))
-        self.assert_problem(tetralight.BadValue, "too_large", "", lambda: client.upload("volumes", bytes(20_000_000)))
+        self.assert_problem(tetralight.BadValue, "too_large", "body", lambda: client.upload("volumes", bytes(20_000_000)))
         with self.assertRaises(tetralight.Unavailable):
             client.upload("volumes", self.folder / "none")
         with self.assertRaises(tetralight.BadValue):
@@ -230,7 +232,7 @@ class Access(ServiceCase):
         self.assertEqual(client.volumes(), [])
         self.assertNotIn(TOKEN, repr(client))
         for wrong in (None, "f" * 32):
-            self.assert_problem(tetralight.Error, "unauthorized", "",
+            self.assert_problem(tetralight.Error, "unauthorized", "authorization",
                                 lambda: tetralight.Client(client.url, wrong).volumes())
         with self.assertRaises(tetralight.BadValue) as caught:
             tetralight.Client(client.url, "secret\nsecret")
@@ -241,6 +243,24 @@ class Access(ServiceCase):
             with self.assertRaises(tetralight.BadValue) as caught:
                 tetralight.Client(url)
             self.assertEqual(caught.exception.field, "url")
+
+
+class Page(ServiceCase):
+    def test_its_code_runs(self):
+        page = Path(__file__).resolve().parents[2] / "docs/python.md"
+        blocks = re.findall(r"^```py\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+        self.assertEqual(len(blocks), 2)
+        shutil.copyfile(COURTYARD, self.folder / "courtyard.glb")
+        url = self.client().url
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.folder)
+        names = {"tetralight": tetralight}
+        for block in blocks:
+            exec(compile(block.replace("http://127.0.0.1:8080", url), str(page), "exec"), names)
+        self.assertEqual(names["volume"].probe_count, tetralight.bake(COURTYARD, **QUICK).probe_count)
+        self.assertEqual(names["light"].sh.shape, (2, 9, 3))
+        self.assert_nothing_is_left()
 
 
 class ServersThatGo(ServiceCase):

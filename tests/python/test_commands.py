@@ -2,6 +2,7 @@
 """The command, run from Python."""
 import json
 import os
+import signal
 import stat
 import time
 import unittest
@@ -12,7 +13,7 @@ from unittest import mock
 import numpy
 
 import tetralight
-from command_case import COURTYARD, CommandCase
+from command_case import COURTYARD, CommandCase, processes_with
 from tetralight import _jobs
 
 QUICK = {"samples": 16, "bounces": 1}
@@ -231,9 +232,8 @@ class Programs(CommandCase):
 
     def test_is_killed_in_the_middle(self):
         def kill(fraction, text):
-            for path in Path("/proc").glob("[0-9]*/cmdline"):
-                if f"--job\0{self.temporary}".encode() in path.read_bytes():
-                    os.kill(int(path.parent.name), 9)
+            for process in processes_with(f"--job {self.temporary}"):
+                os.kill(process, signal.SIGKILL)
 
         error = self.refusal(progress=kill, **ENDLESS)
         self.assertEqual(error.code, "command_failed")
@@ -285,7 +285,7 @@ class Interrupts(CommandCase):
         self.eventually(lambda: any(self.temporary.glob("*/answer.json")))
         while not asked.exists():  # the trap may not be set yet
             self.assertIsNone(process.poll())
-            process.send_signal(2)
+            process.send_signal(signal.SIGINT)
             time.sleep(0.3)
         code, messages = self.interrupt(process)
         self.assertIn("KeyboardInterrupt", messages)

@@ -39,8 +39,8 @@ class Service:
     def get(self, path: str) -> dict[str, Any]:
         return self.json("GET", path)
 
-    def post(self, path: str, order: dict[str, Any], may_repeat: bool = False) -> dict[str, Any]:
-        return self.json("POST", path, json.dumps(order).encode(), JSON, may_repeat)
+    def post(self, path: str, order: dict[str, Any]) -> dict[str, Any]:
+        return self.json("POST", path, json.dumps(order).encode(), JSON)
 
     def json(
         self, method: str, path: str, body: Body = None, kind: str | None = None, may_repeat: bool = False

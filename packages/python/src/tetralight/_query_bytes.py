@@ -12,6 +12,8 @@ from tetralight.errors import Error
 
 HEADER = struct.Struct("<4sIBBBBf")
 OCCLUSION, CELLS, IGNORE_WALLS = 1, 2, 4
+# The copies of the light that the library reads, too.
+HALF_PRECISION = 1
 OUTSIDE = {"extrapolate": 0, "clamp": 1, "ambient": 2}
 WALLS = {"hide": 0, "ignore": IGNORE_WALLS}
 # Number of the form, shape and type of the light of one position.
@@ -41,7 +43,8 @@ def write_request(
         raise bad_value(f"positions[{first + row}]", rows[row].tolist(), "is too large for floats")
     number, _, _ = _choice("format", format, FORMATS)
     wants = OCCLUSION | CELLS | _choice("walls", walls, WALLS)
-    header = HEADER.pack(b"TLQ1", len(rows), number, wants, _choice("outside", outside, OUTSIDE), 0, fade or 0.0)
+    header = HEADER.pack(b"TLQ1", len(rows), number, wants, _choice("outside", outside, OUTSIDE), HALF_PRECISION,
+                         fade or 0.0)
     return header + floats.tobytes()
 
 

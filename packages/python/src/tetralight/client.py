@@ -54,17 +54,17 @@ class Client:
 
     def scenes(self) -> list[dict[str, Any]]:
         """All scenes: `id`, `names`, `bytes`..."""
-        return self.list("scenes")
+        return self.files("scenes")
 
     def volumes(self) -> list[dict[str, Any]]:
         """All probe volumes."""
-        return self.list("volumes")
+        return self.files("volumes")
 
     def bakes(self) -> list[Bake]:
         """All bakes, the newest first."""
-        return [Bake(self, facts) for facts in self.list("bakes")]
+        return [Bake(self, facts) for facts in self.files("bakes")]
 
-    def list(self, kind: str) -> list[dict[str, Any]]:
+    def files(self, kind: str) -> list[dict[str, Any]]:
         """All files of a kind, such as "lightmaps"."""
         found: list[dict[str, Any]] = []
         after: str | None = ""
@@ -240,7 +240,7 @@ class Bake:
     def cancel(self) -> None:
         """Ends the bake; does nothing if it is over."""
         try:
-            self._client._service.post(f"/v1/bakes/{quoted(self.id)}/cancel", {}, True)
+            self._client._service.send("POST", f"/v1/bakes/{quoted(self.id)}/cancel", may_repeat=True)
         except Error as error:
             if error.code != "is_over":
                 raise
