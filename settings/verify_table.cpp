@@ -6,7 +6,13 @@ namespace {
 
 constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene that the volume was baked from (.glb or .gltf)"),
-    input_file("volume", "Baked probe volume (.probes)")};
+    input_file("volume", "Baked probe volume (.probes)"),
+    {.name = "html",
+     .type = Type::Path,
+     .help = "Page to write with the verdict, charts, and the worst probes and places",
+     .extensions = ".html",
+     .without = "no page is written",
+     .access = Access::Command}};
 
 constexpr Setting kReferee[] = {
     {.name = "probes",
@@ -140,7 +146,8 @@ const Table kVerify{
     .summary = "Compare a volume's light with that of an independent path tracer, in error bars",
     .examples =
         "tetralight verify court.glb court.probes\n"
-        "tetralight verify court.glb court.probes --probes 1000 --target-error 0.5%",
+        "tetralight verify court.glb court.probes --probes 1000 --target-error 0.5%\n"
+        "tetralight verify court.glb court.probes --html court.html",
     .groups = kGroups};
 
 }  // namespace tetralight::settings
