@@ -71,6 +71,8 @@ std::string command_line(const Values& values) {
 struct Verify {
     std::string volume_path;
     std::string page_path;
+    bool is_by_cycles = false;
+    std::string blender;
     std::string command;
     SceneOptions scene_options;
     VerifySettings settings;
@@ -79,6 +81,8 @@ struct Verify {
     explicit Verify(const Values& values)
         : volume_path(values.text("volume")),
           page_path(values.text("html")),
+          is_by_cycles(values.choice("referee") == 1),
+          blender(values.is_given("blender") ? values.text("blender") : "blender"),
           command(command_line(values)),
           scene_options(values),
           settings(verify_settings(values)),
@@ -100,13 +104,26 @@ struct Verify {
         }
         BakeProgressDisplay display(common.is_quiet, settings.time_limit_seconds);
         const auto report =
-            verify_volume(*scene, file->view(), settings,
-                          [&](const BakeProgress& progress) { return display.show(progress); });
+            compare(*scene, file->view(),
+                    [&](const BakeProgress& progress) { return display.show(progress); });
         if (!report) return located(report.error());
         if (!page_path.empty()) {
             if (auto status = write_page(*scene, file->view(), *report); !status) return status;
         }
         return judge(*report);
+    }
+
+    [[nodiscard]] Result<VerifyReport> compare(const Scene& scene, const ProbeVolumeView& volume,
+                                               const BakeCallback& callback) const {
+        if (!is_by_cycles) return verify_volume(scene, volume, settings, callback);
+        auto report = prepare_verify(scene, volume, settings);
+        if (!report) return report.error();
+        const CyclesProgram program{blender, scene_options.path};
+        auto status =
+            trace_report_by_cycles(scene, volume, settings, program, *report, callback);
+        if (!status) return status.error();
+        finish_verify(settings, *report);
+        return report;
     }
 
     [[nodiscard]] Status check_page() const {
@@ -125,7 +142,8 @@ struct Verify {
                               .limits = settings.limits,
                               .settings = {},
                               .pictures = {}};
-        for (const auto& [name, value] : made_with(volume).items()) {
+        const Json baked = made_with(volume);
+        for (const auto& [name, value] : baked.items()) {
             if (value.is_primitive()) {
                 facts.settings.emplace_back(
                     "bake: " + name, value.is_string() ? value.get<std::string>() : dump(value));

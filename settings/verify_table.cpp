@@ -15,6 +15,20 @@ constexpr Setting kFiles[] = {
      .access = Access::Command}};
 
 constexpr Setting kReferee[] = {
+    {.name = "referee",
+     .type = Type::Choice,
+     .help = "What traces the light: path-tracer = a plain path tracer of this program; cycles = "
+             "Cycles in Blender, which is installed apart",
+     .choices = "path-tracer cycles",
+     .default_text = "path-tracer",
+     .access = Access::Command},
+    {.name = "blender",
+     .type = Type::Path,
+     .help = "Blender to run",
+     .without = "blender of PATH",
+     .value_name = "PROGRAM",
+     .needs = "referee",
+     .access = Access::Command},
     {.name = "probes",
      .type = Type::Integer,
      .help = "Random probes of the volume to compare, spread over it",

@@ -33,6 +33,18 @@ def blender_from_gltf(vector):
 def main(path):
     with open(path, encoding="utf-8") as file:
         job = json.load(file)
+    with open(job["result"], "w", encoding="utf-8") as result:
+        try:
+            measure_all(job, result)
+        except Exception as error:
+            lines = [line for line in str(error).splitlines() if line and not line.startswith("Location")]
+            reason = lines[-1] if lines else type(error).__name__
+            result.write(json.dumps({"error": reason}) + "\n")
+            raise
+
+
+def measure_all(job, result):
+    result.write(json.dumps({"version": bpy.app.version_string}) + "\n")
     scene = empty_scene()
     bpy.ops.import_scene.gltf(filepath=job["scene"], merge_vertices=False)
     remove_what_does_not_light()
@@ -45,10 +57,9 @@ def main(path):
     camera = add_camera(scene)
     set_up_cycles(scene, job)
     view = Panorama(scene, camera, job)
-    with open(job["result"], "w", encoding="utf-8") as result:
-        for i, position in enumerate(job["positions"]):
-            result.write(json.dumps(view.measure(i, position)) + "\n")
-            print(f"position {i + 1}", flush=True)
+    for i, position in enumerate(job["positions"]):
+        result.write(json.dumps(view.measure(i, position)) + "\n")
+        print(f"position {i + 1}", flush=True)
 
 
 def empty_scene():
@@ -260,7 +271,7 @@ def make_sky(sky):
         turn = (0.0, 0.0, -sky["rotation"])
         mapping = nodes.add("Mapping", {"Vector": place, "Rotation": turn}).outputs[0]
         image = bpy.data.images.load(sky["image"])
-        image.colorspace_settings.name = "Linear"
+        image.colorspace_settings.is_data = True
         picture = nodes.add("TexEnvironment", {"Vector": mapping}, image=image).outputs[0]
         color = nodes.vector_math("MULTIPLY", picture, sky["radiance"])
     else:
