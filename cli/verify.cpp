@@ -103,9 +103,9 @@ struct Verify {
                                  scene_options.path)};
         }
         BakeProgressDisplay display(common.is_quiet, settings.time_limit_seconds);
-        const auto report =
-            compare(*scene, file->view(),
-                    [&](const BakeProgress& progress) { return display.show(progress); });
+        const auto report = compare(*scene, file->view(), [&](const BakeProgress& progress) {
+            return display.show(progress);
+        });
         if (!report) return located(report.error());
         if (!page_path.empty()) {
             if (auto status = write_page(*scene, file->view(), *report); !status) return status;
@@ -119,8 +119,7 @@ struct Verify {
         auto report = prepare_verify(scene, volume, settings);
         if (!report) return report.error();
         const CyclesProgram program{blender, scene_options.path};
-        auto status =
-            trace_report_by_cycles(scene, volume, settings, program, *report, callback);
+        auto status = trace_report_by_cycles(scene, volume, settings, program, *report, callback);
         if (!status) return status.error();
         finish_verify(settings, *report);
         return report;

@@ -63,7 +63,8 @@ Status trace_report_by_cycles(const Scene& scene, const ProbeVolumeView& volume,
     ProgressReporter progress(callback, job.positions.size());
     size_t shown = 0;
     job.progress = [&](size_t done) {
-        for (; shown < done; ++shown) progress.add_round({.is_first = true, .state = {.is_done = true}});
+        for (; shown < done; ++shown)
+            progress.add_round({.is_first = true, .state = {.is_done = true}});
         progress.add_rays(0);
         return !progress.is_cancelled();
     };

@@ -76,8 +76,8 @@ json light_json(const Light& light) {
             {"direction", numbers(light.direction)},
             {"tangent", numbers(light.tangent)},
             {"range", light.range},
-            {"falloff", light.falloff == LightFalloff::InverseSquareRange ? "inverse_square_range"
-                                                                         : "gltf"},
+            {"falloff",
+             light.falloff == LightFalloff::InverseSquareRange ? "inverse_square_range" : "gltf"},
             {"cos_inner_cone", light.cos_inner_cone},
             {"cos_outer_cone", light.cos_outer_cone},
             {"radius", light.radius},
@@ -92,8 +92,9 @@ Result<json> lights_json(const Scene& scene, const std::vector<LightMode>& modes
         const std::string name = str_cat("light \"", scene.light_names[i], "\": ");
         if (modes[i] == LightMode::Realtime) continue;
         if (modes[i] == LightMode::Baked) {
-            return unsupported("lights", name + "its direct light is baked, which panoramas by "
-                                                "Cycles do not see");
+            return unsupported("lights", name +
+                                             "its direct light is baked, which panoramas by "
+                                             "Cycles do not see");
         }
         const bool is_area = light.type == LightType::Rectangle || light.type == LightType::Disc;
         if (light.falloff == LightFalloff::Linear || light.falloff == LightFalloff::Legacy ||
@@ -121,8 +122,9 @@ Status check_job(const Scene& scene, const CyclesJob& job) {
         return unsupported("bounces", "Cycles cannot leave out the first reflection (--bounces 0)");
     }
     if (!scene.choice.scene_name.empty() || scene.choice.time_seconds) {
-        return unsupported("scene", "Blender imports the default scene of a file without its "
-                                    "animation; a named scene or a time cannot be compared");
+        return unsupported("scene",
+                           "Blender imports the default scene of a file without its "
+                           "animation; a named scene or a time cannot be compared");
     }
     return Ok{};
 }

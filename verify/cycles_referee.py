@@ -23,7 +23,10 @@ if "bool" not in vars(numpy):  # the importer of Blender 3.4 uses the name, whic
 
 WIDTH, HEIGHT = 64, 32
 SEEDS = 16
-PILOT_SAMPLES = 2  # of each pixel
+PILOT_SAMPLES = 4  # of each pixel
+# With fewer samples of a pixel, the rounds of different seeds are not independent in Cycles 3.4, and
+# their spread is smaller than their error.
+LEAST_SAMPLES = 8
 
 
 def blender_from_gltf(vector):
@@ -368,7 +371,7 @@ class Panorama:
         if samples == 0:
             samples = self.enough(self.rounds(seed, PILOT_SAMPLES), self.job["target_errors"][index])
         else:
-            samples = max(1, math.ceil(samples / (WIDTH * HEIGHT * SEEDS)))
+            samples = max(LEAST_SAMPLES, math.ceil(samples / (WIDTH * HEIGHT * SEEDS)))
         rounds = self.rounds(seed + SEEDS, samples)
         return {"samples": samples * WIDTH * HEIGHT * SEEDS, "coefficients": rounds.tolist()}
 
@@ -379,10 +382,10 @@ class Panorama:
         error = light.std(axis=0, ddof=1) / math.sqrt(SEEDS)
         floor = numpy.maximum(mean, 0.01 * mean.max())
         if floor.max() <= 0:
-            return PILOT_SAMPLES
+            return LEAST_SAMPLES
         factor = (error / (target * numpy.maximum(floor, 1e-30))).max() ** 2
-        most = max(1, self.job["max_samples"] // (WIDTH * HEIGHT * SEEDS))
-        return min(max(1, math.ceil(PILOT_SAMPLES * factor)), most)
+        most = self.job["max_samples"] // (WIDTH * HEIGHT * SEEDS)
+        return max(LEAST_SAMPLES, min(math.ceil(PILOT_SAMPLES * factor), most))
 
 
 if __name__ == "__main__":
