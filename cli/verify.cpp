@@ -6,6 +6,7 @@
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_options.h>
+#include <tetralight/cli/verify_page_file.h>
 #include <tetralight/cli/verify_text.h>
 #include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/verify_volume.h>
@@ -13,6 +14,24 @@
 
 namespace tetralight::cli {
 namespace {
+
+/// In quotes of a shell where they are needed.
+std::string shell_word(const std::string& text) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+%-";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+    return word + "'";
+}
+
+/// A value that is not a text as an option has it: "0.5", "1,2,3".
+std::string option_text(const settings::Json& value) {
+    if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
+    std::string text;
+    for (const settings::Json& part : value) text += (text.empty() ? "" : ",") + option_text(part);
+    return text;
+}
 
 VerifySettings verify_settings(const Values& values) {
     VerifySettings settings;
@@ -35,14 +54,36 @@ VerifySettings verify_settings(const Values& values) {
     return settings;
 }
 
+/// The command line for a shell, with all settings that were given.
+std::string command_line(const Values& values) {
+    std::string line = str_cat("tetralight verify ", shell_word(values.text("scene")), " ",
+                               shell_word(values.text("volume")));
+    values.table().for_each([&](const settings::Setting& setting) {
+        if (setting.is_positional || !values.is_given(setting.name)) return;
+        line += str_cat(" ", settings::shown_name(setting, settings::Form::Options));
+        if (setting.type == settings::Type::Flag) return;
+        const settings::Json& value = *values.find(setting.name);
+        line += " " + shell_word(value.is_string() ? value.get<std::string>() : option_text(value));
+    });
+    return line;
+}
+
 struct Verify {
     std::string volume_path;
+    std::string page_path;
+    bool is_by_cycles = false;
+    std::string blender;
+    std::string command;
     SceneOptions scene_options;
     VerifySettings settings;
     CommonOptions common;
 
     explicit Verify(const Values& values)
         : volume_path(values.text("volume")),
+          page_path(values.text("html")),
+          is_by_cycles(values.choice("referee") == 1),
+          blender(values.is_given("blender") ? values.text("blender") : "blender"),
+          command(command_line(values)),
           scene_options(values),
           settings(verify_settings(values)),
           common(values) {
@@ -50,6 +91,7 @@ struct Verify {
     }
 
     Status run() const {
+        if (auto status = check_page(); !status) return status;
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         const auto scene = scene_options.read();
@@ -61,11 +103,53 @@ struct Verify {
                                  scene_options.path)};
         }
         BakeProgressDisplay display(common.is_quiet, settings.time_limit_seconds);
-        const auto report =
-            verify_volume(*scene, file->view(), settings,
-                          [&](const BakeProgress& progress) { return display.show(progress); });
+        const auto report = compare(*scene, file->view(), [&](const BakeProgress& progress) {
+            return display.show(progress);
+        });
         if (!report) return located(report.error());
+        if (!page_path.empty()) {
+            if (auto status = write_page(*scene, file->view(), *report); !status) return status;
+        }
         return judge(*report);
+    }
+
+    [[nodiscard]] Result<VerifyReport> compare(const Scene& scene, const ProbeVolumeView& volume,
+                                               const BakeCallback& callback) const {
+        if (!is_by_cycles) return verify_volume(scene, volume, settings, callback);
+        auto report = prepare_verify(scene, volume, settings);
+        if (!report) return report.error();
+        const CyclesProgram program{blender, scene_options.path};
+        auto status = trace_report_by_cycles(scene, volume, settings, program, *report, callback);
+        if (!status) return status.error();
+        finish_verify(settings, *report);
+        return report;
+    }
+
+    [[nodiscard]] Status check_page() const {
+        if (page_path.empty()) return Ok{};
+        std::vector<std::string> inputs = scene_options.inputs();
+        inputs.push_back(volume_path);
+        return check_output(page_path, inputs, "html");
+    }
+
+    [[nodiscard]] Status write_page(const Scene& scene, const ProbeVolumeView& volume,
+                                    const VerifyReport& report) const {
+        VerifyPageFacts facts{.scene_path = scene_options.path,
+                              .volume_path = volume_path,
+                              .version = "tetralight " TETRALIGHT_VERSION,
+                              .command = command,
+                              .limits = settings.limits,
+                              .settings = {},
+                              .pictures = {}};
+        const Json baked = made_with(volume);
+        for (const auto& [name, value] : baked.items()) {
+            if (value.is_primitive()) {
+                facts.settings.emplace_back(
+                    "bake: " + name, value.is_string() ? value.get<std::string>() : dump(value));
+            }
+        }
+        return write_verify_page(page_path, scene, volume, report, std::move(facts),
+                                 common.thread_count);
     }
 
     /// With the path of the file that an error is about.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include <tetralight/bake/bake_progress.h>
 #include <tetralight/bake/scene/scene.h>
@@ -57,6 +58,22 @@ struct VerifySettings {
 [[nodiscard]] Status trace_report(const Scene& scene, const ProbeVolumeView& volume,
                                   const VerifySettings& settings, VerifyReport& report,
                                   const BakeCallback& callback = {});
+
+/// The program that traces in place of the referee of this library.
+struct CyclesProgram {
+    /// Blender: a path, or a name that is looked up in PATH.
+    std::string blender = "blender";
+    /// The glTF file that the scene was read from.
+    std::string scene_path;
+};
+
+/// The same by Cycles (verify/cycles_referee.h), which shares neither loader nor rays with the
+/// baker. Also returns unsupported if the bake changed the albedo of surfaces, and the errors of
+/// `trace_by_cycles`.
+[[nodiscard]] Status trace_report_by_cycles(const Scene& scene, const ProbeVolumeView& volume,
+                                            const VerifySettings& settings,
+                                            const CyclesProgram& program, VerifyReport& report,
+                                            const BakeCallback& callback = {});
 
 /// Compares both and checks the limits.
 void finish_verify(const VerifySettings& settings, VerifyReport& report);

@@ -6,9 +6,29 @@ namespace {
 
 constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene that the volume was baked from (.glb or .gltf)"),
-    input_file("volume", "Baked probe volume (.probes)")};
+    input_file("volume", "Baked probe volume (.probes)"),
+    {.name = "html",
+     .type = Type::Path,
+     .help = "Page to write with the verdict, charts, and the worst probes and places",
+     .extensions = ".html",
+     .without = "no page is written",
+     .access = Access::Command}};
 
 constexpr Setting kReferee[] = {
+    {.name = "referee",
+     .type = Type::Choice,
+     .help = "What traces the light: path-tracer = a plain path tracer of this program; cycles = "
+             "Cycles in Blender, which is installed apart",
+     .choices = "path-tracer cycles",
+     .default_text = "path-tracer",
+     .access = Access::Command},
+    {.name = "blender",
+     .type = Type::Path,
+     .help = "Blender to run",
+     .without = "blender of PATH",
+     .value_name = "PROGRAM",
+     .needs = "referee",
+     .access = Access::Command},
     {.name = "probes",
      .type = Type::Integer,
      .help = "Random probes of the volume to compare, spread over it",
@@ -140,7 +160,8 @@ const Table kVerify{
     .summary = "Compare a volume's light with that of an independent path tracer, in error bars",
     .examples =
         "tetralight verify court.glb court.probes\n"
-        "tetralight verify court.glb court.probes --probes 1000 --target-error 0.5%",
+        "tetralight verify court.glb court.probes --probes 1000 --target-error 0.5%\n"
+        "tetralight verify court.glb court.probes --html court.html",
     .groups = kGroups};
 
 }  // namespace tetralight::settings

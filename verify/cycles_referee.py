@@ -23,7 +23,10 @@ if "bool" not in vars(numpy):  # the importer of Blender 3.4 uses the name, whic
 
 WIDTH, HEIGHT = 64, 32
 SEEDS = 16
-PILOT_SAMPLES = 2  # of each pixel
+PILOT_SAMPLES = 4  # of each pixel
+# With fewer samples of a pixel, the rounds of different seeds are not independent in Cycles 3.4, and
+# their spread is smaller than their error.
+LEAST_SAMPLES = 8
 
 
 def blender_from_gltf(vector):
@@ -33,6 +36,18 @@ def blender_from_gltf(vector):
 def main(path):
     with open(path, encoding="utf-8") as file:
         job = json.load(file)
+    with open(job["result"], "w", encoding="utf-8") as result:
+        try:
+            measure_all(job, result)
+        except Exception as error:
+            lines = [line for line in str(error).splitlines() if line and not line.startswith("Location")]
+            reason = lines[-1] if lines else type(error).__name__
+            result.write(json.dumps({"error": reason}) + "\n")
+            raise
+
+
+def measure_all(job, result):
+    result.write(json.dumps({"version": bpy.app.version_string}) + "\n")
     scene = empty_scene()
     bpy.ops.import_scene.gltf(filepath=job["scene"], merge_vertices=False)
     remove_what_does_not_light()
@@ -45,10 +60,9 @@ def main(path):
     camera = add_camera(scene)
     set_up_cycles(scene, job)
     view = Panorama(scene, camera, job)
-    with open(job["result"], "w", encoding="utf-8") as result:
-        for i, position in enumerate(job["positions"]):
-            result.write(json.dumps(view.measure(i, position)) + "\n")
-            print(f"position {i + 1}", flush=True)
+    for i, position in enumerate(job["positions"]):
+        result.write(json.dumps(view.measure(i, position)) + "\n")
+        print(f"position {i + 1}", flush=True)
 
 
 def empty_scene():
@@ -260,7 +274,7 @@ def make_sky(sky):
         turn = (0.0, 0.0, -sky["rotation"])
         mapping = nodes.add("Mapping", {"Vector": place, "Rotation": turn}).outputs[0]
         image = bpy.data.images.load(sky["image"])
-        image.colorspace_settings.name = "Linear"
+        image.colorspace_settings.is_data = True
         picture = nodes.add("TexEnvironment", {"Vector": mapping}, image=image).outputs[0]
         color = nodes.vector_math("MULTIPLY", picture, sky["radiance"])
     else:
@@ -357,7 +371,7 @@ class Panorama:
         if samples == 0:
             samples = self.enough(self.rounds(seed, PILOT_SAMPLES), self.job["target_errors"][index])
         else:
-            samples = max(1, math.ceil(samples / (WIDTH * HEIGHT * SEEDS)))
+            samples = max(LEAST_SAMPLES, math.ceil(samples / (WIDTH * HEIGHT * SEEDS)))
         rounds = self.rounds(seed + SEEDS, samples)
         return {"samples": samples * WIDTH * HEIGHT * SEEDS, "coefficients": rounds.tolist()}
 
@@ -368,10 +382,10 @@ class Panorama:
         error = light.std(axis=0, ddof=1) / math.sqrt(SEEDS)
         floor = numpy.maximum(mean, 0.01 * mean.max())
         if floor.max() <= 0:
-            return PILOT_SAMPLES
+            return LEAST_SAMPLES
         factor = (error / (target * numpy.maximum(floor, 1e-30))).max() ** 2
-        most = max(1, self.job["max_samples"] // (WIDTH * HEIGHT * SEEDS))
-        return min(max(1, math.ceil(PILOT_SAMPLES * factor)), most)
+        most = self.job["max_samples"] // (WIDTH * HEIGHT * SEEDS)
+        return max(LEAST_SAMPLES, min(math.ceil(PILOT_SAMPLES * factor), most))
 
 
 if __name__ == "__main__":
