@@ -41,8 +41,8 @@ class Platform:
     environment: dict = dataclasses.field(default_factory=dict)
     # Highway's namespace of the processor, which functions of the program must be in.
     vectors: str = ""
-    # Runs the program in another way: run(platform, folder, names) returns (is_right, text).
-    run: object = None
+    # In Node: a script of this folder that takes the program.
+    script: str = ""
 
 
 PLATFORMS = [
@@ -61,6 +61,8 @@ PLATFORMS = [
     Platform("mingw32", "Windows, 32 bits", "i686-w64-mingw32-g++-posix", toolchain="mingw32",
              program="tests/portability/portability_test.exe",
              shared_program="tests/portability/portability_shared.exe", runner=None),
+    Platform("wasm32", "WebAssembly, 128-bit vectors by Highway", "clang++-16", toolchain="wasm32",
+             target="tetralight_wasm", program="runtime/wasm/tetralight.wasm", script="wasm_test.mjs"),
 ]
 
 
@@ -88,7 +90,7 @@ def compiler_version(platform):
 
 
 def build(platform, folder, log):
-    command = ["cmake", "--preset", "ship", "-B", folder, "-Wno-dev", f"-DCMAKE_CXX_COMPILER={platform.compiler}",
+    command = ["cmake", "--fresh", "--preset", "ship", "-B", folder, "-Wno-dev", f"-DCMAKE_CXX_COMPILER={platform.compiler}",
                "-DTETRALIGHT_BUILD_TESTS=OFF", "-DTETRALIGHT_INSTALL=OFF", "-DTETRALIGHT_WARNINGS_AS_ERRORS=ON",
                "-DTETRALIGHT_BUILD_PORTABILITY_TEST=ON", *platform.options]
     if platform.toolchain:
@@ -109,6 +111,8 @@ def run_program(platform, folder, program, names):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
     command = [*platform.runner, folder / program, "work", VECTORS, *names]
+    if platform.script:
+        command = ["node", ROOT / "tests" / "portability" / platform.script, folder / program, VECTORS, *names]
     try:
         ended = subprocess.run(command, cwd=folder, env={**os.environ, **platform.environment}, text=True,
                                capture_output=True, timeout=MOST_SECONDS)
@@ -122,8 +126,6 @@ def run_program(platform, folder, program, names):
 
 def run_programs(platform, folder, names):
     """Returns whether all programs passed, and their last lines."""
-    if platform.run:
-        return platform.run(platform, folder, names)
     programs = [platform.program, *([platform.shared_program] if platform.shared_program else [])]
     results = [run_program(platform, folder, program, names) for program in programs]
     return all(is_right for is_right, _ in results), "; ".join(line for _, line in results)
@@ -131,7 +133,7 @@ def run_programs(platform, folder, names):
 
 def missing_command(platform):
     """The name of a command that is not installed; None if all are."""
-    for command in (platform.compiler, *(platform.runner or ())[:1]):
+    for command in (platform.compiler, *(platform.runner or ())[:1], *(["node"] if platform.script else [])):
         if not shutil.which(command):
             return command
     return None
@@ -154,7 +156,7 @@ def try_platform(platform, names):
         print(log_path.read_text(errors="replace")[-4000:], file=sys.stderr)
         return outcome
     outcome.built = f"{time.monotonic() - start:.0f} s"
-    if platform.runner is None and platform.run is None:
+    if platform.runner is None:
         outcome.ran = "compiled only"
         outcome.failed = False
         return outcome
