@@ -90,7 +90,7 @@ def compiler_version(platform):
 
 
 def build(platform, folder, log):
-    command = ["cmake", "--preset", "ship", "-B", folder, "-Wno-dev", f"-DCMAKE_CXX_COMPILER={platform.compiler}",
+    command = ["cmake", "--fresh", "--preset", "ship", "-B", folder, "-Wno-dev", f"-DCMAKE_CXX_COMPILER={platform.compiler}",
                "-DTETRALIGHT_BUILD_TESTS=OFF", "-DTETRALIGHT_INSTALL=OFF", "-DTETRALIGHT_WARNINGS_AS_ERRORS=ON",
                "-DTETRALIGHT_BUILD_PORTABILITY_TEST=ON", *platform.options]
     if platform.toolchain:

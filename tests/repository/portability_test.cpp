@@ -85,5 +85,17 @@ TEST(Portability, SourcesDoNotAskForTheSystem) {
     }
 }
 
+TEST(Portability, ThePageListsEachPlatform) {
+    const std::string script = read_text("tests/portability/portability.py");
+    const std::string page = read_text("docs/portability.md");
+    const std::regex row("\n    Platform\\(\"([a-z0-9]+)\"");
+    size_t count = 0;
+    for (std::sregex_iterator it(script.begin(), script.end(), row), end; it != end; ++it) {
+        ++count;
+        EXPECT_NE(page.find("\n| `" + (*it)[1].str() + "` |"), std::string::npos) << (*it)[1];
+    }
+    EXPECT_GE(count, 3u);
+}
+
 }  // namespace
 }  // namespace tetralight

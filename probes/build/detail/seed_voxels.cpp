@@ -35,7 +35,8 @@ class WordCopier {
             const SeedGridHeader finer = seed_grid_header(words_, from);
             add_header(finer);
             const size_t count = voxel_count(finer);
-            for (size_t i = 0; i < count; ++i) add_word(words_[from + kSeedGridHeaderWords + i]);
+            const size_t first = from + static_cast<size_t>(kSeedGridHeaderWords);
+            for (size_t i = 0; i < count; ++i) add_word(words_[first + i]);
         }
         return std::move(copied_);
     }
@@ -61,7 +62,8 @@ class WordCopier {
         const auto [entry, is_new] = places_.emplace(grid, static_cast<uint32_t>(next_place_));
         if (is_new) {
             grids_.push_back(grid);
-            next_place_ += kSeedGridHeaderWords + voxel_count(seed_grid_header(words_, grid));
+            next_place_ += static_cast<size_t>(kSeedGridHeaderWords) +
+                           voxel_count(seed_grid_header(words_, grid));
         }
         return entry->second;
     }
