@@ -32,7 +32,7 @@ struct SeedGridHeader {
 
 static_assert(sizeof(SeedGridHeader) == 40 && std::is_trivially_copyable_v<SeedGridHeader>);
 
-inline constexpr uint64_t kSeedGridHeaderWords = sizeof(SeedGridHeader) / sizeof(uint32_t);
+inline constexpr size_t kSeedGridHeaderWords = sizeof(SeedGridHeader) / sizeof(uint32_t);
 
 /// A word of a voxel with this bit names a finer grid.
 inline constexpr uint32_t kFinerGrid = 0x80000000u;
