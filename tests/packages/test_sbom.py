@@ -43,8 +43,13 @@ def objects_of(target, seen):
 
 
 def header_packages(target):
-    """The Debian packages whose headers are compiled into a target."""
-    objects = list(objects_of(target, set()))
+    """The Debian packages whose headers are compiled into a target, with a static library into all of the ship set."""
+    targets = [target]
+    if target.endswith(".a"):
+        targets = [f"{folder}/libtetralight_{folder}.a" for folder in ("base", "probes", "lppv", "lightmap", "reflection")]
+        targets.append(target)
+    seen = set()
+    objects = [name for one in targets for name in objects_of(one, seen)]
     assert objects, target
     lines = run("ninja", "-C", BUILD, "-t", "deps", *objects).splitlines()
     headers = {line.strip() for line in lines if line.startswith("    /usr/include")}
