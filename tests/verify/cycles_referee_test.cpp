@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/temp_folder.h"
 #include <tetralight/base/error_text.h>
 #include <tetralight/verify/html.h>
 #include <array>
@@ -14,6 +13,7 @@
 #include <span>
 #include <string>
 #include <vector>
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 namespace {
