@@ -108,48 +108,74 @@ void write_values(const fs::path& path, const std::vector<Value>& values) {
     require(bool(write_file(path.string(), std::as_bytes(std::span(values)))), "write");
 }
 
-/// Seconds of a batch of the npm package in Node, which compares its answers, too; none if it
-/// cannot run.
-std::optional<double> batch_in_node(const BenchFolder& folder, const char* precision) {
-    const std::string script = TETRALIGHT_SOURCE_DIR "/packages/js/bench/batch.mjs";
+/// Seconds of a batch by a script of packages/js/bench in Node, which compares its answers, too;
+/// none if it cannot run. `last`: the script's argument after the folder.
+std::optional<double> batch_in_node(const char* figure, const char* script_name,
+                                    const BenchFolder& folder, const std::string& last) {
+    const std::string script = str_cat(TETRALIGHT_SOURCE_DIR "/packages/js/bench/", script_name);
     const auto result =
-        run_process({.program = "node", .arguments = {script, folder.path.string(), precision}});
+        run_process({.program = "node", .arguments = {script, folder.path.string(), last}});
     if (!result || !result->succeeded()) {
-        std::cerr << "js.batch is left out: "
-                  << (result ? result->failure() : error_text(result.error())) << '\n';
+        std::cerr << figure
+                  << " is left out: " << (result ? result->failure() : error_text(result.error()))
+                  << '\n';
         return std::nullopt;
     }
     const auto json = Json::parse(result->output_text());
-    require(json["largest_difference"] <= 1e-4, "js.batch: other answers");
+    require(json["largest_difference"] <= 1e-4, "Node: other answers");
     return json["seconds"].get<double>();
 }
 
-/// The npm package in Node against single queries of one thread.
+constexpr size_t kNodeCount = 200'000;
+
+/// `seconds_in_node` against single queries of one thread. Nothing if it returns nothing.
+template <class SecondsInNode>
+void contest_in_node(const std::string& figure, const ProbeVolumeView& view,
+                     const std::vector<glm::vec3>& positions, const Options& options,
+                     SecondsInNode seconds_in_node) {
+    std::vector<double> ours;
+    std::vector<double> baseline;
+    for (int i = 0; i < options.repetitions; ++i) {
+        const auto node = seconds_in_node();
+        if (!node) return;
+        ours.push_back(1e-6 * kNodeCount / *node);
+        std::vector<IrradianceSh> answers;
+        baseline.push_back(1e-6 * kNodeCount /
+                           seconds([&] { answers = single_answers(view, positions); }));
+    }
+    report_contest(figure, median(ours), median(baseline), "Mq/s",
+                   "C++ locate and interpolate, one position a call, one thread");
+}
+
+/// The npm package in Node.
 void js_batch(Subject& subject, const Options& options) {
     const BenchFolder folder;
-    constexpr size_t kCount = 200'000;
     const ProbeVolumeView half = subject.volume.view();
     require(bool(write_probe_file((folder.path / "volume.probes").string(), half)), "write");
-    const auto positions = subject.positions(kCount);
+    const auto positions = subject.positions(kNodeCount);
     write_values(folder.path / "positions.f32", positions);
     for (const char* precision : {"full", "half"}) {
         const bool is_full = std::string_view(precision) == "full";
         const ProbeVolumeView view = is_full ? half.without_compact() : half;
         write_values(folder.path / "answers.f32", single_answers(view, positions));
-        std::vector<double> ours;
-        std::vector<double> baseline;
-        for (int i = 0; i < options.repetitions; ++i) {
-            const auto js = batch_in_node(folder, precision);
-            if (!js) return;
-            ours.push_back(1e-6 * kCount / *js);
-            std::vector<IrradianceSh> answers;
-            baseline.push_back(1e-6 * kCount /
-                               seconds([&] { answers = single_answers(view, positions); }));
-        }
-        report_contest(str_cat("js.batch.", subject.name, is_full ? "" : ".half"), median(ours),
-                       median(baseline), "Mq/s",
-                       "C++ locate and interpolate, one position a call, one thread");
+        contest_in_node(str_cat("js.batch.", subject.name, is_full ? "" : ".half"), view, positions,
+                        options,
+                        [&] { return batch_in_node("js.batch", "batch.mjs", folder, precision); });
     }
+}
+
+/// The WebAssembly module in Node, with the light as floats: that of `./run portability wasm32`.
+void wasm_batch(Subject& subject, const Options& options) {
+    const BenchFolder folder;
+    const std::string module =
+        TETRALIGHT_SOURCE_DIR "/build/portability/wasm32/runtime/wasm/tetralight.wasm";
+    const ProbeVolumeView view = subject.volume.view().without_compact();
+    require(bool(write_probe_file((folder.path / "volume.probes").string(), view)), "write");
+    const auto positions = subject.positions(kNodeCount);
+    write_values(folder.path / "positions.f32", positions);
+    write_values(folder.path / "answers.f32", single_answers(view, positions));
+    contest_in_node(str_cat("wasm.batch.", subject.name), view, positions, options,
+                    [&] { return batch_in_node("wasm.batch", "wasm_batch.mjs", folder, module); });
 }
 
 }  // namespace
@@ -158,6 +184,7 @@ void bench_engines(const Options& options) {
     exports(make_scene_subject(options), options);
     Subject subject = make_random_subject("20k", 20'000);
     js_batch(subject, options);
+    wasm_batch(subject, options);
 }
 
 }  // namespace tetralight::bench
