@@ -42,8 +42,7 @@ if(hwy_FOUND)
   string(APPEND dev_depends ", libhwy-dev")
 endif()
 if(TARGET tetralight_shared)
-  # dpkg runs ldconfig by a trigger; packages that link the library depend on it by shlibs. CPack 3.25
-  # writes scripts that call ldconfig themselves, which Debian no longer accepts.
+  # dpkg runs ldconfig by a trigger; packages that link the library depend on it by shlibs.
   configure_file(${debian}/runtime/shlibs.in ${PROJECT_BINARY_DIR}/debian_runtime/shlibs @ONLY)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
       ${PROJECT_BINARY_DIR}/debian_runtime/shlibs ${debian}/runtime/triggers)
