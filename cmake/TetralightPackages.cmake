@@ -42,9 +42,10 @@ if(hwy_FOUND)
   string(APPEND dev_depends ", libhwy-dev")
 endif()
 if(TARGET tetralight_shared)
-  # CPack has dpkg run ldconfig, and writes the file shlibs by which other packages depend on this one.
-  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+  # dpkg runs ldconfig by a trigger; packages that link the library depend on it by shlibs.
+  configure_file(${debian}/runtime/shlibs.in ${PROJECT_BINARY_DIR}/debian_runtime/shlibs @ONLY)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
+      ${PROJECT_BINARY_DIR}/debian_runtime/shlibs ${debian}/runtime/triggers)
   debian_package(runtime libtetralight0 libs "Baked light probes at run time, as a shared library
 The C API of Tetralight, for programs in any language that locate, interpolate
 and shade with the light probes of .probes files.")
