@@ -96,6 +96,9 @@ void bench_groups(const Options& options);
 void bench_grid(const Options& options);
 /// Light that leaks through walls.
 void bench_leaks(const Options& options);
+
+/// Bakes at default settings, against a second path tracer.
+void bench_verify(const Options& options);
 /// Charts, texels, seams and samples of lightmaps.
 void bench_lightmap(const Options& options);
 /// Proxy volumes: filling, refreshing, accuracy, files.

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
         {"server", bench_server},
 #endif
         {"tetrahedralize", bench_tetrahedralize},
+        {"verify", bench_verify},
         {"world", bench_world}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");
@@ -42,10 +43,10 @@ int main(int argc, char** argv) {
                    "`bake` writes a CSV file of errors over rays instead of its figures");
     app.add_option(
         "--only", options.only,
-        "The scene that `bake`, `farm`, `grid` or `relight` runs alone. bake: courtyard, scene, "
-        "rooms, rooms_sky, emitters or white_room. grid: courtyard, house, rooms, "
-        "interior or scene. relight: courtyard, scene or emitters. farm: courtyard, "
-        "scene, rooms, emitters or collect");
+        "The scene that `bake`, `farm`, `grid`, `relight` or `verify` runs alone. bake: "
+        "courtyard, scene, rooms, rooms_sky, emitters or white_room. grid: courtyard, house, "
+        "rooms, interior or scene. relight: courtyard, scene or emitters. farm: courtyard, scene, "
+        " rooms, emitters or collect. verify: courtyard, scene, emitters or white_room");
     app.add_option("--figure", options.figure,
                    "The figures that `bake` measures alone: time, rays, noise, layers, bounces, "
                    "dering or threads; and `lightmap`: directional, shadowmask or layers")

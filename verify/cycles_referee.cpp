@@ -13,7 +13,7 @@
 
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/process.h>
+#include <tetralight/base/process/process.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {

@@ -103,7 +103,7 @@ TEST(VerifyReport, PlacesShowLeaksAndTheInterpolationError) {
 /// Little light in the dark is not a leak, nor is noise of the referee.
 TEST(VerifyReport, SmallAndNoisyDifferencesAreNotLeaks) {
     VerifyReport report;
-    report.places = {place_with(2.0, 2.0), place_with(0.04, 0.0), place_with(1.0, 0.0)};
+    report.places = {place_with(2.0, 2.0), place_with(0.03, 0.0), place_with(1.0, 0.0)};
     report.places[2].traced.error = glm::dvec3(0.5);
     summarize(report);
     EXPECT_EQ(report.leak_share, 0.0);
