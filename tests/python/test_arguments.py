@@ -86,3 +86,15 @@ class Files(unittest.TestCase):
     def test_a_file_of_another_kind(self):
         with self.assertRaises(tetralight.Error):
             tetralight.open(__file__)
+
+    def test_a_path_with_a_zero_byte(self):
+        with self.assertRaisesRegex(tetralight.BadValue, "zero bytes"):
+            tetralight.open(vector_path("space") + "\0other")
+        with self.assertRaisesRegex(tetralight.BadValue, "zero bytes"):
+            tetralight.open(vector_path("space")).save(temporary_path("a\0b"))
+
+
+class Ragged(unittest.TestCase):
+    def test_rows_of_different_lengths(self):
+        with self.assertRaisesRegex(tetralight.BadValue, "positions: expected the shape"):
+            tetralight.open(vector_path("space")).query([[1, 2, 3], [4, 5]])
