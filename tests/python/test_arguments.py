@@ -6,6 +6,7 @@ import numpy as np
 
 import tetralight
 from support import temporary_path, vector_path
+from tetralight._query_bytes import write_request
 
 
 class Arguments(unittest.TestCase):
@@ -86,3 +87,24 @@ class Files(unittest.TestCase):
     def test_a_file_of_another_kind(self):
         with self.assertRaises(tetralight.Error):
             tetralight.open(__file__)
+
+    def test_a_path_with_a_zero_byte(self):
+        with self.assertRaisesRegex(tetralight.BadValue, "zero bytes"):
+            tetralight.open(vector_path("space") + "\0other")
+        with self.assertRaisesRegex(tetralight.BadValue, "zero bytes"):
+            tetralight.open(vector_path("space")).save(temporary_path("a\0b"))
+
+
+class Ragged(unittest.TestCase):
+    def test_rows_of_different_lengths(self):
+        with self.assertRaisesRegex(tetralight.BadValue, "positions: expected the shape"):
+            tetralight.open(vector_path("space")).query([[1, 2, 3], [4, 5]])
+
+    def test_rows_of_different_lengths_for_the_service(self):
+        with self.assertRaisesRegex(tetralight.BadValue, "positions"):
+            tetralight.Client("http://127.0.0.1:1").query("court", [[1, 2, 3], [4, 5]])
+
+    def test_fade_distances_that_are_not_floats(self):
+        for fade in (1e300, 0.0, -1.0, float("nan")):
+            with self.subTest(fade), self.assertRaisesRegex(tetralight.BadValue, "fade_distance"):
+                write_request(np.zeros((1, 3)), 0, "half", "ambient", fade, "hide")

@@ -46,3 +46,5 @@ class ProxyVolume(unittest.TestCase):
                 self.volume.lppv(**{**box, name: wrong})
         with self.assertRaises(tetralight.BadValue):
             self.volume.lppv(**{**box, "resolution": (300, 1, 1)})
+        with self.assertRaises(tetralight.BadValue):  # not 2, as 32 bits would read it
+            self.volume.lppv(**{**box, "resolution": (2**32 + 2, 1, 1)})

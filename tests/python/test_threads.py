@@ -47,3 +47,17 @@ class Gates(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(seen, [0] * 100)
+
+    def test_an_interrupted_change_lets_others_in(self):
+        class Interrupted(threading.Condition):
+            def wait(self, timeout=None):
+                raise KeyboardInterrupt
+
+        gate = Gate()
+        gate.enter()
+        waiting, gate._condition = gate._condition, Interrupted(threading.Lock())
+        with self.assertRaises(KeyboardInterrupt):
+            gate.close()
+        gate._condition = waiting
+        gate.leave()
+        self.assertFalse(gate._is_closed)

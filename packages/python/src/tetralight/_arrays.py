@@ -52,7 +52,10 @@ def shown(shape: Sequence[int | None]) -> str:
 
 def vectors(name: str, values: Any, size: int = 3, dtype: Any = np.float32) -> AnyArray:
     """Numbers of the shape (…, size). Copies what has another type or has gaps inside a vector."""
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as reason:  # rows of different lengths
+        raise BadValue(f"{name}: expected the shape {shown((None, size))}: {reason}") from None
     if array.dtype.kind not in "fiu":
         raise BadValue(f"{name}: expected numbers, given {array.dtype}")
     if array.ndim == 0 or array.shape[-1] != size:

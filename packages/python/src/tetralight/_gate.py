@@ -31,8 +31,13 @@ class Gate:
             while self._is_closed:
                 self._condition.wait()
             self._is_closed = True
-            while self._inside > 0:
-                self._condition.wait()
+            try:
+                while self._inside > 0:
+                    self._condition.wait()
+            except BaseException:  # an interrupt: the call that would open the gate does not begin
+                self._is_closed = False
+                self._condition.notify_all()
+                raise
 
     def open(self) -> None:
         with self._condition:

@@ -99,6 +99,14 @@ def opened(function: Any, free: Any, *arguments: Any) -> Handle:
     return Handle(pointer.value, free)
 
 
+def path_bytes(path: str | os.PathLike[str]) -> bytes:
+    """A path as the library reads it: C would end it at a zero byte."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise errors.BadValue(f"path: expected a path without zero bytes, given {os.fspath(path)!r}")
+    return name
+
+
 Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
 
 
@@ -108,4 +116,4 @@ def opened_file(open_path: Any, open_memory: Any, free: Any, source: Source) -> 
         content = bytes(source)
         return opened(open_memory, free, content, len(content)), "memory"
     name = os.fspath(source)
-    return opened(open_path, free, os.fsencode(name)), name
+    return opened(open_path, free, path_bytes(name)), name

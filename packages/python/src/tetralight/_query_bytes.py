@@ -43,6 +43,8 @@ def write_request(
         raise bad_value(f"positions[{first + row}]", rows[row].tolist(), "is too large for floats")
     number, _, _ = _choice("format", format, FORMATS)
     wants = OCCLUSION | CELLS | _choice("walls", walls, WALLS)
+    if fade is not None and not 0 < fade <= numpy.finfo(numpy.float32).max:
+        raise bad_value("fade_distance", fade, "is not positive and finite")
     header = HEADER.pack(b"TLQ1", len(rows), number, wants, _choice("outside", outside, OUTSIDE), HALF_PRECISION,
                          fade or 0.0)
     return header + floats.tobytes()

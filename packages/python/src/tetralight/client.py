@@ -143,7 +143,10 @@ class Client:
     ) -> Light:
         """The light at positions (..., 3) in a stored volume, computed by the service. As `Volume.query`; without
         `fade_distance` ambient light fades over the service's default."""
-        array = numpy.asarray(positions)
+        try:
+            array = numpy.asarray(positions)
+        except ValueError as reason:  # rows of different lengths
+            raise bad_value("positions", type(positions).__name__, f"is not an array (..., 3): {reason}") from None
         if array.ndim < 1 or array.shape[-1] != 3:
             raise bad_value("positions", array.shape, "is not a shape (..., 3)")
         rows = checked_positions("positions", array.reshape(-1, 3))

@@ -44,8 +44,8 @@ def box_of(
     low: Any, high: Any, resolution: Any, world_from_box: Any, quality: str, placement: str, layout: str, format: str
 ) -> c.LppvBox:
     counts = np.asarray(resolution)
-    if counts.dtype.kind not in "iu" or counts.shape != (3,) or counts.min() < 1:
-        raise BadValue(f"resolution: expected three integers of at least 1, given {resolution!r}")
+    if counts.dtype.kind not in "iu" or counts.shape != (3,) or counts.min() < 1 or counts.max() > 256:
+        raise BadValue(f"resolution: expected three integers from 1 to 256, given {resolution!r}")
     matrix = np.asarray(np.eye(4) if world_from_box is None else world_from_box, np.float32)
     if matrix.shape != (4, 4):
         raise BadValue(f"world_from_box: expected the shape (4, 4), given {matrix.shape}")

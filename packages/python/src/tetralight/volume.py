@@ -16,7 +16,7 @@ from tetralight import lppv as proxy
 from tetralight._arrays import AnyArray, FloatArray, three
 from tetralight._contents import Contents
 from tetralight._gate import Gate
-from tetralight._library import Handle, Source, call, library, opened_file
+from tetralight._library import Handle, Source, call, library, opened_file, path_bytes
 from tetralight.errors import BadValue, Closed, NotThere
 from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
@@ -287,7 +287,7 @@ class Volume:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the volume with its present light to a .probes file."""
-        name = os.fsencode(path)
+        name = path_bytes(path)
         self._read(lambda contents: call(library.tetralight_save, contents.handle.pointer, name))
 
     # Pictures and files
