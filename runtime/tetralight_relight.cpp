@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes of the sky and the sun, and volumes written with their new light.
+#include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <new>
 #include <utility>
 
+#include <tetralight/base/str_cat.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/recombine.h>
 #include <tetralight/probes/relight.h>
@@ -38,6 +41,7 @@ CallError check_relight(const ProbeVolumeView& volume, DistantLayer layer) {
 namespace {
 
 using namespace tetralight;
+using detail::CallError;
 using detail::check_floats;
 using detail::check_memory;
 using detail::check_pointer;
@@ -81,6 +85,21 @@ tetralight_status relight_copy(tetralight_volume& volume, tetralight_error* erro
     return succeed(error);
 }
 
+/// Precondition: all six numbers are finite.
+CallError check_sun(const float* direction, const float* irradiance) {
+    constexpr float kTolerance = 1e-3f;
+    const float length = glm::length(glm::make_vec3(direction));
+    if (!(std::abs(length - 1.0f) <= kTolerance)) {
+        return {TETRALIGHT_BAD_VALUE,
+                str_cat("direction is not a unit vector: its length is ", length)};
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (irradiance[i] >= 0.0f) continue;
+        return {TETRALIGHT_BAD_VALUE, str_cat("irradiance[", i, "] is negative: ", irradiance[i])};
+    }
+    return {};
+}
+
 }  // namespace
 
 tetralight_status tetralight_relight_sky(tetralight_volume* volume, const float* sky,
@@ -103,6 +122,7 @@ tetralight_status tetralight_relight_sun(tetralight_volume* volume, const float*
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     if (auto wrong = check_floats("direction", direction, 3)) return finish(wrong, error);
     if (auto wrong = check_floats("irradiance", irradiance, 3)) return finish(wrong, error);
+    if (auto wrong = check_sun(direction, irradiance)) return finish(wrong, error);
     if (auto wrong = check_relight(view_of(*volume), DistantLayer::Sun)) {
         return finish(wrong, error);
     }

@@ -109,9 +109,19 @@ class Relight(unittest.TestCase):
             "sky": {"sky": np.ones((4, 4))},
             "sun_irradiance": {"sun_direction": (0, -1, 0)},
             "sun_direction": {"sun_direction": (0, -1), "sun_irradiance": (1, 1, 1)},
+            "sun_direction: expected a direction": {"sun_direction": (0, 0, 0), "sun_irradiance": (1, 1, 1)},
+            "irradiance.1. is negative": {"sun_direction": (0, -1, 0), "sun_irradiance": (1, -1, 1)},
         }.items():
             with self.assertRaisesRegex(tetralight.BadValue, name):
                 volume.relight(**light)
+
+    def test_takes_directions_of_any_length(self):
+        volume = self.open()
+        volume.relight(sun_direction=(0.6, -0.8, 0), sun_irradiance=(1, 1, 1))
+        light = volume.irradiance
+        for length in (1e-30, 1e25):
+            volume.relight(sun_direction=(0.6 * length, -0.8 * length, 0), sun_irradiance=(1, 1, 1))
+            np.testing.assert_allclose(volume.irradiance, light, 1e-5, 1e-6)
         with self.assertRaises(tetralight.NotThere):
             tetralight.open(vector_path("space")).relight(sky=1)
 

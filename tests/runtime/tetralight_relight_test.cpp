@@ -144,6 +144,11 @@ TEST_F(CApiRelight, ArgumentsThatAreWrongAreErrorsAndChangeNothing) {
         << "light that is not finite";
     EXPECT_EQ(tetralight_relight_sky(volume, nullptr, &error), TETRALIGHT_BAD_POINTER);
     EXPECT_EQ(tetralight_relight_sky(nullptr, sky_floats, &error), TETRALIGHT_BAD_POINTER);
+    const float nowhere[3] = {0.0f, 0.0f, 0.0f}, dark[3] = {1.0f, -1.0f, 1.0f};
+    EXPECT_EQ(tetralight_relight_sun(volume, nowhere, irradiance, &error), TETRALIGHT_BAD_VALUE);
+    EXPECT_STREQ(error.message, "direction is not a unit vector: its length is 0");
+    EXPECT_EQ(tetralight_relight_sun(volume, direction, dark, &error), TETRALIGHT_BAD_VALUE);
+    EXPECT_STREQ(error.message, "irradiance[1] is negative: -1");
     EXPECT_EQ(tetralight_relight_sun(volume, nullptr, irradiance, &error), TETRALIGHT_BAD_POINTER);
     EXPECT_EQ(tetralight_relight_sun(volume, direction, nullptr, &error), TETRALIGHT_BAD_POINTER);
     EXPECT_EQ(tetralight_relight_sun(nullptr, direction, irradiance, &error),

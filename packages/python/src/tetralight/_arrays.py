@@ -75,6 +75,18 @@ def three(name: str, values: Any) -> FloatArray:
     return array
 
 
+def unit_vector(name: str, values: Any) -> FloatArray:
+    """One vector, made as long as 1."""
+    array = np.array(vectors(name, values, dtype=np.float64))
+    if array.shape != (3,):
+        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
+    largest = float(np.abs(array).max())
+    if not 0.0 < largest < math.inf:
+        raise BadValue(f"{name}: expected a direction, given {array.tolist()}")
+    array /= largest
+    return (array / np.linalg.norm(array)).astype(np.float32)
+
+
 def each(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
     """One number for each position, or one for all of them, without gaps."""
     array = np.asarray(values)

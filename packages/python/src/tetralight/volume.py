@@ -13,7 +13,7 @@ from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight import _query, mesh
 from tetralight import lppv as proxy
-from tetralight._arrays import AnyArray, FloatArray, three
+from tetralight._arrays import AnyArray, FloatArray, three, unit_vector
 from tetralight._contents import Contents
 from tetralight._gate import Gate
 from tetralight._library import Handle, Source, call, library, opened_file, path_bytes
@@ -266,9 +266,7 @@ class Volume:
         radiance = None if sky is None else sky_coefficients(sky)
         sun = None
         if sun_direction is not None:
-            direction = three("sun_direction", sun_direction)
-            direction /= max(float(np.linalg.norm(direction)), 1e-30)
-            sun = direction, three("sun_irradiance", sun_irradiance)
+            sun = unit_vector("sun_direction", sun_direction), three("sun_irradiance", sun_irradiance)
         with self._changes:
             if radiance is not None:
                 self._change(library.tetralight_relight_sky, radiance.ctypes.data)
