@@ -12,8 +12,6 @@
 namespace tetralight {
 namespace {
 
-constexpr std::array<const char*, 3> kChannelNames{"red", "green", "blue"};
-
 /// Of all charts, in pixels of the page at its normal size.
 constexpr double kWidth = 320.0, kHeight = 240.0;
 constexpr double kLeft = 46.0, kRight = 12.0, kTop = 10.0, kBottom = 38.0;

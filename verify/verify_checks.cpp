@@ -9,8 +9,6 @@
 namespace tetralight {
 namespace {
 
-constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
-
 VerifyCheck at_most(const char* setting, std::string what, double value, double limit) {
     return {setting, std::move(what), percent_text(value), "at most " + percent_text(limit),
             value <= limit};
@@ -36,8 +34,8 @@ std::vector<VerifyCheck> list_checks(const VerifyReport& report, const VerifyLim
     std::vector<VerifyCheck> checks;
     for (size_t i = 0; i < report.channels.size() && !report.probes.empty(); ++i) {
         const VerifyChannel& channel = report.channels[i];
-        if (channel.decided_count > 0) add_decided(checks, channel, kChannels[i], limits);
-        checks.push_back(at_most("max_undecided", str_cat("undecided probes, ", kChannels[i]),
+        if (channel.decided_count > 0) add_decided(checks, channel, kChannelNames[i], limits);
+        checks.push_back(at_most("max_undecided", str_cat("undecided probes, ", kChannelNames[i]),
                                  channel.undecided, limits.max_undecided));
     }
     if (report.places.empty()) return checks;

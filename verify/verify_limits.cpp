@@ -8,8 +8,6 @@
 namespace tetralight {
 namespace {
 
-constexpr std::array<const char*, 3> kChannelNames{"red", "green", "blue"};
-
 std::string percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f %%", 100.0 * share);

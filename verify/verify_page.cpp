@@ -14,7 +14,6 @@ namespace tetralight {
 namespace {
 
 constexpr size_t kWorstCount = 10;
-constexpr std::array<const char*, 3> kChannelNames{"red", "green", "blue"};
 
 using Cells = std::vector<std::string>;
 

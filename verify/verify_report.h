@@ -88,6 +88,9 @@ struct VerifyRules {
     bool operator==(const VerifyRules&) const = default;
 };
 
+/// Of `VerifyReport::channels`.
+inline constexpr std::array<const char*, 3> kChannelNames{"red", "green", "blue"};
+
 /// One channel of the mean irradiance at probes. Shares and means are over decided probes, but for
 /// `undecided`, which is a share of all compared probes.
 struct VerifyChannel {

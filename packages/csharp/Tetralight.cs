@@ -660,10 +660,10 @@ namespace Tetralight
 
         /// <summary>Moves the sun: layer "sun" becomes the light that the probes transfer from a sun that shines
         /// along the unit vector `direction` (three floats), with `irradiance` (three floats, &gt;= 0) on a
-        /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its occlusion
-        /// is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if the
-        /// volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of the
-        /// volume.</summary>
+        /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its
+        /// occlusion is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if
+        /// the volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of
+        /// the volume.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern tetralight_status tetralight_relight_sun(tetralight_volume* volume, float* direction, float* irradiance, tetralight_error* error);
 

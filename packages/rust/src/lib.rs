@@ -618,10 +618,10 @@ extern "C" {
 
     /// Moves the sun: layer "sun" becomes the light that the probes transfer from a sun that shines
     /// along the unit vector `direction` (three floats), with `irradiance` (three floats, >= 0) on a
-    /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its occlusion
-    /// is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if the
-    /// volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of the
-    /// volume.
+    /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its
+    /// occlusion is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if
+    /// the volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of
+    /// the volume.
     pub fn tetralight_relight_sun(volume: *mut tetralight_volume, direction: *const f32, irradiance: *const f32, error: *mut tetralight_error) -> tetralight_status;
 
     /// Writes the volume with its present light to a file, which replaces an older one only as a
