@@ -18,9 +18,9 @@ class Verify : public CommandFixture {
     static Arguments arguments(const Arguments& more = {}) {
         Arguments all{"verify", kCourtyard,         "v.probes", "--probes",
                       "20",     "--places",         "20",       "-s",
-                      "2048",   "--max-undecided",  "1",        "--max-unseen-share",
-                      "1",      "--max-leak-share", "1",        "--max-interpolation",
-                      "10",     "--min-within",     "0"};
+                      "4096",   "--max-undecided",  "1",        "--max-unseen-share",
+                      "1",      "--max-leak-share", "1",        "--min-within",
+                      "0"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -32,7 +32,7 @@ TEST_F(Verify, ReportsFiguresProbesAndPlacesAsJson) {
     EXPECT_EQ(json["referee"], "path tracer");
     EXPECT_EQ(json["probes"].size(), 20u);
     EXPECT_EQ(json["places"].size(), 20u);
-    EXPECT_EQ(json["samples"], 40 * 2048);
+    EXPECT_EQ(json["samples"], 40 * 4096);
     for (const char* channel : {"red", "green", "blue"}) {
         EXPECT_LE(json["channels"][channel]["undecided"], 1.0);
     }
@@ -44,7 +44,7 @@ TEST_F(Verify, ReportsFiguresProbesAndPlacesAsJson) {
 TEST_F(Verify, TextHasATableAndSaysWhatIsShared) {
     const std::string out = succeed(arguments()).out;
     EXPECT_EQ(out.find("v.probes: by the path tracer, all bounces, "), 0u) << out;
-    EXPECT_TRUE(contains(out, "\n  green  ")) << out;
+    EXPECT_TRUE(contains(out, "\n    green  ")) << out;
     EXPECT_TRUE(contains(out, "The referee shares with the baker the scene")) << out;
 }
 
@@ -61,7 +61,7 @@ TEST_F(Verify, FailsWithTheReasonAndTheReport) {
 TEST_F(Verify, RefusesWhatItCannotCompare) {
     EXPECT_TRUE(contains(misuse({"verify", "v.probes"}), "VOLUME"));
     EXPECT_TRUE(contains(fail(arguments({"--sky", "3"})), "was baked from another scene"));
-    EXPECT_TRUE(contains(misuse(arguments({"--target-error", "1%"})), "--samples"));
+    EXPECT_TRUE(contains(misuse(arguments({"--target-error", "0.01"})), "--samples"));
     succeed({"tetrahedralize", "few.json", "-o", "unlit.probes"});
     EXPECT_TRUE(contains(fail({"verify", kCourtyard, "unlit.probes"}), "holds no light"));
 }
