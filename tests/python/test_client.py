@@ -183,7 +183,8 @@ class Queries(ServiceCase):
         for field, positions, settings in (
                 ("positions[253]", bad, {}), ("positions", [[1, 2]], {}), ("positions", 3, {}),
                 ("positions", [["a", "b", "c"]], {}), ("positions[0]", [[1e300, 0, 0]], {}),
-                ("format", [[0, 0, 0]], {"format": "double"}), ("outside", [[0, 0, 0]], {"outside": "none"})):
+                ("format", [[0, 0, 0]], {"format": "double"}), ("outside", [[0, 0, 0]], {"outside": "none"}),
+                ("fade_distance", [[0, 0, 0]], {"fade_distance": -1})):
             with self.subTest(field=field), self.assertRaises(tetralight.BadValue) as caught:
                 self.remote.query("court", positions, **settings)
             self.assertEqual(caught.exception.field, field)
@@ -191,8 +192,6 @@ class Queries(ServiceCase):
     def test_problems_of_the_service(self):
         position = [[0, 1, 0]]
         self.assert_problem(tetralight.NotFound, "not_found", "volume", lambda: self.remote.query("none", position))
-        self.assert_problem(tetralight.BadValue, "invalid_header", "fade",
-                            lambda: self.remote.query("court", position, fade_distance=-1))
 
 
 class Files(ServiceCase):

@@ -117,7 +117,7 @@ class Checks(CommandCase):
             return
         loose = {"max_mean_z": 1e3, "min_within": 0, "max_undecided": 1, "max_interpolation": 1e3,
                  "max_leak_share": 1, "max_unseen_share": 1}
-        few = {"probes": 20, "places": 20, "samples": 64, **loose}
+        few = {"probes": 20, "places": 20, "samples": 4096, **loose}
         self.assertIsInstance(tetralight.verify(COURTYARD, path, **few), dict)
         with self.assertRaises(tetralight.BadValue) as caught:
             tetralight.verify(COURTYARD, path, **{**few, "max_interpolation": 1e-9})

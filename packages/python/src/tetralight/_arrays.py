@@ -84,7 +84,8 @@ def unit_vector(name: str, values: Any) -> FloatArray:
     if not 0.0 < largest < math.inf:
         raise BadValue(f"{name}: expected a direction, given {array.tolist()}")
     array /= largest
-    return (array / np.linalg.norm(array)).astype(np.float32)
+    unit: FloatArray = (array / np.linalg.norm(array)).astype(np.float32)
+    return unit
 
 
 def each(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
