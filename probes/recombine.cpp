@@ -96,8 +96,10 @@ Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
 
 uint32_t find_layer(const ProbeVolumeView& volume, std::string_view name) noexcept {
     const auto names = split_names(volume.layer_names);
-    const auto found = std::ranges::find(names, name);
-    return found == names.end() ? kNoIndex : static_cast<uint32_t>(found - names.begin());
+    const auto index = static_cast<size_t>(std::ranges::find(names, name) - names.begin());
+    // A volume that was not verified may have more names than layers.
+    const size_t count = std::min(names.size(), volume.layers.size());
+    return index < count ? static_cast<uint32_t>(index) : kNoIndex;
 }
 
 float light_weight(const ProbeVolumeView& volume, size_t light) noexcept {
@@ -207,6 +209,17 @@ Status recombine(ProbeVolume& volume, std::span<const float> weights) {
     return recombine(volume, weights, [](size_t count, const auto& task) {
         for (size_t i = 0; i < count; ++i) task(i);
     });
+}
+
+Status detail::check_light_sizes(const ProbeVolumeView& volume) {
+    const size_t count = volume.positions.size();
+    for (const auto& [name, size] : {std::pair("irradiance", volume.irradiance.size()),
+                                     std::pair("compact", volume.compact.size())}) {
+        if (size == 0 || size == count) continue;
+        return Error{ErrorCode::Corrupt, name, "",
+                     str_cat("section \"", name, "\": ", size, " elements for ", count, " probes")};
+    }
+    return Ok{};
 }
 
 void detail::store_weights(ProbeVolume& volume, std::span<const float> weights,

@@ -75,7 +75,8 @@ inline constexpr size_t kRecombineTaskSize = 4096;
 /// Rewrites the volume's light as Σ w_k · layer_k, added in the order of the layers: irradiance,
 /// compact probes if there are any, ambient light, and the weights that the layers record.
 /// If no layer is negative anywhere, neither is the sum. The same bits for any tasks. Returns the
-/// errors of `check_weights`.
+/// errors of `check_weights`, and corrupt if a section of light has another number of elements than
+/// there are probes.
 ///
 /// `parallel_for(count, task)` calls task(0) .. task(count − 1) in any order, on any threads, and
 /// returns when all are done.
@@ -91,6 +92,9 @@ template <class ParallelFor>
 
 namespace detail {
 
+/// Returns corrupt if the volume holds irradiance or compact probes of another number than probes.
+[[nodiscard]] Status check_light_sizes(const ProbeVolumeView& volume);
+
 /// Records weights and what follows from them.
 void store_weights(ProbeVolume& volume, std::span<const float> weights,
                    const RecombinedInfo& info) noexcept;
@@ -102,6 +106,7 @@ void recombine_task(ProbeVolume& volume, std::span<const float> weights, size_t 
 
 template <class ParallelFor>
 Status recombine(ProbeVolume& volume, std::span<const float> weights, ParallelFor&& parallel_for) {
+    if (auto status = detail::check_light_sizes(volume.view()); !status) return status;
     const auto info = check_weights(volume.view(), weights);
     if (!info) return info.error();
     detail::store_weights(volume, weights, *info);

@@ -45,6 +45,22 @@ ProbeVolume make_volume() {
     return volume;
 }
 
+/// Lazily opened files are not verified.
+TEST(Relight, RefusesSectionsThatDoNotFit) {
+    const DistantLight sky = distant_sun(glm::vec3(0, 1, 0), {1, 2, 3});
+    ProbeVolume volume = make_volume();
+    volume.layers.resize(1);
+    EXPECT_EQ(relight_sky(volume, sky).error().code, ErrorCode::NotFound);
+    volume = make_volume();
+    volume.irradiance.resize(1);
+    EXPECT_EQ(relight_sky(volume, sky).error().field, "irradiance");
+    volume = make_volume();
+    volume.compact.resize(1);
+    const Status status = relight_sun(volume, {0.0f, -1.0f, 0.0f}, glm::vec3(1.0f));
+    EXPECT_EQ(status.error().code, ErrorCode::Corrupt);
+    EXPECT_EQ(status.error().field, "compact");
+}
+
 TEST(Relight, SkyLayerBecomesTheTransferOfTheNewSky) {
     ProbeVolume volume = make_volume();
     DistantLight sky = distant_sun(glm::vec3(0, 1, 0), {1, 2, 3});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include <tetralight/base/file.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/recombine.h>
@@ -154,6 +155,28 @@ TEST_F(CApiRelight, ArgumentsThatAreWrongAreErrorsAndChangeNothing) {
     EXPECT_EQ(tetralight_relight_sun(nullptr, direction, irradiance, &error),
               TETRALIGHT_BAD_POINTER);
     expect_data();
+}
+
+/// A file whose sections do not fit together is opened lazily: nothing is written out of bounds.
+TEST_F(CApiRelight, SectionsThatDoNotFitAreCorrupt) {
+    const auto relight_lazily = [&](const ProbeVolume& wrong) {
+        const std::string path = folder.path("wrong.probes");
+        EXPECT_TRUE(write_file(path, probe_file_bytes(wrong.view())));
+        tetralight_volume* lazy = nullptr;
+        EXPECT_EQ(tetralight_open_lazy(path.c_str(), &lazy, &error), TETRALIGHT_OK);
+        const tetralight_status status = tetralight_relight_sky(lazy, sky_floats, &error);
+        tetralight_close(lazy);
+        return status;
+    };
+    ProbeVolume wrong = data;
+    wrong.layers.resize(1);
+    EXPECT_EQ(relight_lazily(wrong), TETRALIGHT_NOT_THERE);
+    wrong = data;
+    wrong.irradiance.resize(1);
+    EXPECT_EQ(relight_lazily(wrong), TETRALIGHT_CORRUPT);
+    wrong = data;
+    wrong.compact.resize(1);
+    EXPECT_EQ(relight_lazily(wrong), TETRALIGHT_CORRUPT);
 }
 
 TEST_F(CApiRelight, SavingToWhereNothingCanBeIsAnError) {
