@@ -19,6 +19,7 @@
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/pipeline/override_probes.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/verify/verify_checks.h>
 
 namespace tetralight {
 namespace {

@@ -93,6 +93,14 @@ inline constexpr SceneReadingSettings kOptionalSceneReading = scene_reading_sett
 /// Of commands that read no light.
 inline constexpr std::span<const Setting> kScenePose = std::span(kSceneReading.rows).first(3);
 
+inline constexpr Setting kClearance{.name = "clearance",
+                                    .type = Type::Number,
+                                    .help = "Least distance of places from surfaces",
+                                    .unit = "metres",
+                                    .range = {0, 1e9},
+                                    .default_text = "0.05",
+                                    .access = Access::Command};
+
 constexpr Setting seed_setting(std::string_view help) {
     return {.name = "seed",
             .type = Type::Integer,

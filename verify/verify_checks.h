@@ -18,12 +18,18 @@ struct VerifyCheck {
     std::string value;
     std::string limit;
     bool is_kept = true;
+    /// What a `VerifyFailure` says if it is not kept.
+    std::string failure;
 
     bool operator==(const VerifyCheck&) const = default;
 };
 
-/// All checks of `check_limits`, which returns one failure for each that is not kept.
+/// All that has a limit in a report.
 [[nodiscard]] std::vector<VerifyCheck> list_checks(const VerifyReport& report,
                                                    const VerifyLimits& limits);
+
+/// One for each check that is not kept.
+[[nodiscard]] std::vector<VerifyFailure> check_limits(const VerifyReport& report,
+                                                      const VerifyLimits& limits);
 
 }  // namespace tetralight

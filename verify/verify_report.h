@@ -92,7 +92,7 @@ struct VerifyRules {
 inline constexpr std::array<const char*, 3> kChannelNames{"red", "green", "blue"};
 
 /// One channel of the mean irradiance at probes. Shares and means are over decided probes, but for
-/// `undecided`, which is a share of all compared probes.
+/// `undecided` and `mean_difference`, which are over all compared probes.
 struct VerifyChannel {
     uint64_t decided_count = 0;
     double within_3_sigma = 1.0;
@@ -168,7 +168,7 @@ struct VerifyReport {
     double outside_share = 0.0;
     /// Paths of all positions.
     uint64_t sample_count = 0;
-    /// Probes that were not traced, because the time was over.
+    /// Probes and places that were not traced, because the time was over.
     uint64_t untraced_count = 0;
     std::vector<VerifyFailure> failures;
 
@@ -198,10 +198,6 @@ struct VerifyLimits {
 
 /// Sets z, `is_decided`, leaks and all figures from the light of `probes` and `places`, by `rules`.
 void summarize(VerifyReport& report);
-
-/// One for each limit that the report is beyond.
-[[nodiscard]] std::vector<VerifyFailure> check_limits(const VerifyReport& report,
-                                                      const VerifyLimits& limits);
 
 /// The whole report as one JSON object, indented by nothing.
 [[nodiscard]] std::string verify_report_json(const VerifyReport& report);

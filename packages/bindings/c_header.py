@@ -27,7 +27,7 @@ class HeaderError(Exception):
 
 @dataclass
 class Type:
-    """`name` behind `stars` pointers; `is_const` is of what the last pointer leads to."""
+    """A C type: `name` with `stars` asterisks behind it. `is_const`: `name` stands behind `const`."""
     name: str
     stars: int = 0
     is_const: bool = False

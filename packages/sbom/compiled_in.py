@@ -20,7 +20,7 @@ def compiled_into(package):
 
 
 def license_of(package):
-    """The licence of what a package distributes, as a whole."""
+    """The SPDX licence expression of all files of a package."""
     return table()["licenses"].get(package, OWN_LICENSE)
 
 

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/cli/command_fixture.h"
+#include "tests/cli/house_fixture.h"
 #include "tests/cli/picture.h"
 
 namespace tetralight::test {
 namespace {
 
-class CheckLeaks : public CommandFixture {
+class CheckLeaks : public HouseFixture {
   protected:
-    /// Few probes in and around the house, whose walls light goes through.
-    CheckLeaks() {
-        succeed({"grid", kCourtyard, "-o", "few.json", "--spacing", "2.6", "--min", "-7,0.2,-6",
-                 "--max", "8,3.3,6"});
-        succeed({"bake", kCourtyard, "-g", "few.json", "--only-given-groups", "-o", "v.probes",
-                 "-s", "64"});
-    }
+    CheckLeaks() : HouseFixture("64") {}
 
     /// With few places and samples.
     static Arguments arguments(const Arguments& more = {}) {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/cli/command_fixture.h"
+#include "tests/cli/house_fixture.h"
 
 namespace tetralight::test {
 namespace {
 
-class Verify : public CommandFixture {
+class Verify : public HouseFixture {
   protected:
-    /// Few probes around the house of the courtyard.
-    Verify() {
-        succeed({"grid", kCourtyard, "-o", "few.json", "--spacing", "2.6", "--min", "-7,0.2,-6",
-                 "--max", "8,3.3,6"});
-        succeed({"bake", kCourtyard, "-g", "few.json", "--only-given-groups", "-o", "v.probes",
-                 "-s", "1024"});
-    }
+    Verify() : HouseFixture("1024") {}
 
     /// With few probes, places and paths, and limits that all volumes keep.
     static Arguments arguments(const Arguments& more = {}) {

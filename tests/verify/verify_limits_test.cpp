@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <tetralight/verify/verify_report.h>
+#include <tetralight/verify/verify_checks.h>
 
 namespace tetralight {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """How bright is each light? Finds the weights of the layers of a volume from a few measured irradiances, by least
-squares: light is linear in the brightness of what emits it.
+squares: the light of a source is proportional to its brightness.
 
     python3 fit_light.py courtyard.glb --samples 1024 -o fit.png
 
@@ -55,7 +55,7 @@ def fit(matrix, measured, noise):
 
 
 def measure(scene, meter_count=200, seed=1, **settings):
-    """Bakes, measures and fits: a dictionary of what was found."""
+    """Bakes, measures and fits. Returns the figures by name."""
     volume = tetralight.bake(scene, layers=LAYERS, **settings)
     places, normals = meters(volume, meter_count, seed)
     exact = light_of(volume, TRUTH, places, normals).ravel()

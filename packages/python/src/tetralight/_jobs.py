@@ -129,7 +129,7 @@ class Job:
         return answer
 
     def _silence(self, name: str, code: int, err: Path) -> str:
-        """Why there is no answer."""
+        """How a command ended that reported no error."""
         ended = f"ended with code {code}"
         if code < 0:
             try:

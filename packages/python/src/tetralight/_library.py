@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Union
+from typing import Any, TypeVar, Union
 
 from tetralight import _declarations as c
 from tetralight import errors
@@ -89,6 +89,40 @@ class Handle:
 
     def __del__(self) -> None:
         self._free(self.pointer)
+
+
+AnyOpened = TypeVar("AnyOpened", bound="Opened")
+
+
+class Opened:
+    """What is open until `close` or the end of a `with` statement."""
+
+    _closed = "closed"  # the end of the message of `Closed`
+
+    def __init__(self, handle: Handle, name: str) -> None:
+        self._handle: Handle | None = handle
+        self.name = name
+
+    def close(self) -> None:
+        """Calls fail with `Closed` from now on. Arrays that show the file stay valid."""
+        self._handle = None
+
+    @property
+    def is_closed(self) -> bool:
+        return self._handle is None
+
+    def __enter__(self: AnyOpened) -> AnyOpened:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _open_handle(self) -> Handle:
+        handle = self._handle
+        if handle is None:
+            raise errors.Closed(f"{self.name}: {self._closed}")
+        return handle
+
 
 
 def opened(function: Any, free: Any, *arguments: Any) -> Handle:

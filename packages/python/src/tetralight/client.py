@@ -187,7 +187,7 @@ class Client:
 
 
 class Bake:
-    """A bake of the service. It goes on without this object: `Client.bakes` lists it."""
+    """A bake of the service. The service runs it to its end, even without this object; `Client.bakes` lists it."""
 
     def __init__(self, client: Client, facts: dict[str, Any]) -> None:
         self._client = client

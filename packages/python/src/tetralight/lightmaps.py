@@ -10,8 +10,8 @@ import numpy as np
 from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight._arrays import AnyArray, FloatArray
-from tetralight._library import Handle, Source, call, library, opened_file
-from tetralight.errors import BadValue, Closed, NotThere
+from tetralight._library import Handle, Opened, Source, call, library, opened_file
+from tetralight.errors import BadValue, NotThere
 
 NO_PAGE = c.NO_PAGE
 MIXED_LIGHTING = ("bounces", "shadow_mask", "direct")
@@ -19,12 +19,13 @@ MIXED_LIGHTING = ("bounces", "shadow_mask", "direct")
 RECTANGLE = np.dtype([("scale", np.float32, 2), ("offset", np.float32, 2), ("page", np.uint32)])
 
 
-class Lightmaps:
+class Lightmaps(Opened):
     """`tetralight.open_lightmaps` makes it. All calls may run in several threads at once."""
 
+    _closed = "the lightmaps are closed"
+
     def __init__(self, handle: Handle, name: str) -> None:
-        self._handle: Handle | None = handle
-        self.name = name
+        super().__init__(handle, name)
         info = c.LightmapsInfo()
         call(library.tetralight_lightmaps_get_info, handle.pointer, ctypes.byref(info))
         self.page_size: int = info.page_size
@@ -40,22 +41,6 @@ class Lightmaps:
         self.mixed_lighting = MIXED_LIGHTING[info.mixed_lighting]
         """How mixed lights are in the texels: their bounces; bounces and a shadow mask; bounces and direct
         light."""
-
-    def close(self) -> None:
-        """Calls fail with `Closed` from now on."""
-        self._handle = None
-
-    def __enter__(self) -> Lightmaps:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def _open_handle(self) -> Handle:
-        handle = self._handle
-        if handle is None:
-            raise Closed(f"{self.name}: the lightmaps are closed")
-        return handle
 
     def __repr__(self) -> str:
         return (

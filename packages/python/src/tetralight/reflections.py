@@ -10,8 +10,8 @@ import numpy as np
 from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight._arrays import AnyArray, FloatArray
-from tetralight._library import Handle, Source, call, library, opened_file
-from tetralight.errors import BadValue, Closed
+from tetralight._library import Handle, Opened, Source, call, library, opened_file
+from tetralight.errors import BadValue
 
 PROBE = np.dtype(
     [
@@ -26,12 +26,13 @@ PROBE = np.dtype(
 )
 
 
-class Reflections:
+class Reflections(Opened):
     """`tetralight.open_reflections` makes it. All calls may run in several threads at once."""
 
+    _closed = "the reflection probes are closed"
+
     def __init__(self, handle: Handle, name: str) -> None:
-        self._handle: Handle | None = handle
-        self.name = name
+        super().__init__(handle, name)
         info = c.ReflectionsInfo()
         call(library.tetralight_reflections_get_info, handle.pointer, ctypes.byref(info))
         self.size: int = info.size
@@ -39,22 +40,6 @@ class Reflections:
         self.level_count: int = info.level_count
         """Level i is blurred for the roughness 1 - sqrt(1 - i / (level_count - 1))."""
         self.probe_count: int = info.probe_count
-
-    def close(self) -> None:
-        """Calls fail with `Closed` from now on. Arrays of texels stay valid."""
-        self._handle = None
-
-    def __enter__(self) -> Reflections:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def _open_handle(self) -> Handle:
-        handle = self._handle
-        if handle is None:
-            raise Closed(f"{self.name}: the reflection probes are closed")
-        return handle
 
     def __repr__(self) -> str:
         return (
