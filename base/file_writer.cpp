@@ -79,15 +79,14 @@ Status FileWriter::commit(FilePieces expected) {
 }
 
 Status FileWriter::compare_with(FilePieces expected) const {
-    constexpr size_t kBlockSize = 1 << 20;  // a mapped file would be in memory twice
-    std::vector<std::byte> block(kBlockSize);
+    std::vector<std::byte> block(kComparedBlockSize);  // a mapped file would be in memory twice
     const Error differs{ErrorCode::Corrupt,
                         str_cat(shown_path(path_),
                                 ": was not replaced, as other bytes came back than were written")};
     if (auto status = file_->rewind(); !status) return status;
     for (std::span<const std::byte> rest : expected) {
         while (!rest.empty()) {
-            const auto wanted = rest.first(std::min(rest.size(), kBlockSize));
+            const auto wanted = rest.first(std::min(rest.size(), kComparedBlockSize));
             const auto count = file_->read(std::span(block).first(wanted.size()));
             if (!count) return count.error();
             if (*count != wanted.size() || std::memcmp(wanted.data(), block.data(), *count) != 0) {

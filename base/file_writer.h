@@ -53,6 +53,9 @@ class FileWriter {
     std::unique_ptr<detail::NewFile> file_;
 };
 
+/// What `write_compared_file` allocates at most in one piece.
+inline constexpr size_t kComparedBlockSize = 1 << 20;
+
 /// Like `write_file` in file.h, but reads the file back and compares it with `pieces` before it
 /// replaces an older one.
 [[nodiscard]] Status write_compared_file(const std::string& path, FilePieces pieces);

@@ -5,7 +5,9 @@
 
 namespace tetralight {
 
-#ifdef _LIBCPP_HAS_NO_THREADS
+// The first macro is that of libc++ up to version 19; later versions define the second one as 0
+// or 1.
+#if defined(_LIBCPP_HAS_NO_THREADS) || (defined(_LIBCPP_HAS_THREADS) && !_LIBCPP_HAS_THREADS)
 
 /// libc++ without threads, as for WebAssembly, has no mutex: nothing runs at the same time.
 class Mutex {

@@ -9,6 +9,8 @@ string(REPLACE "/" "_" ship_components "${ship_modules}")
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tetralight)
 set(shader_folder ${CMAKE_INSTALL_DATADIR}/tetralight/shaders)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)
+# From the folder of the pkg-config files: Debian's own libraries lie one folder deeper than lib.
+file(RELATIVE_PATH prefix_from_package /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 
 foreach(module ${ship_modules})
   string(REPLACE "/" "_" target ${module})

@@ -9,7 +9,8 @@
 
 // Changes or rotates the sky, or moves the sun, without another bake: volumes that were baked with
 // layers "sky" and "transfer" hold the transfer of each probe from distant light
-// (probes/transfer.h).
+// (probes/transfer.h). Metadata does not change: programs that write such a volume record in member
+// "relit" of its JSON object that the light is not that of the scene.
 
 namespace tetralight {
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include <tetralight/base/file_writer.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/recombine.h>
@@ -15,6 +16,7 @@
 #include <tetralight/runtime/detail/c_arrays.h>
 #include <tetralight/runtime/detail/c_relight.h>
 #include <tetralight/runtime/detail/c_volume.h>
+#include <tetralight/runtime/detail/record_relit.h>
 #include <tetralight/runtime/tetralight.h>
 
 namespace tetralight::detail {
@@ -49,11 +51,13 @@ using detail::check_relight;
 using detail::DistantLayer;
 using detail::file_error;
 using detail::finish;
+using detail::record_relit;
 using detail::succeed;
 using detail::view_of;
 
+/// A copy, and the metadata that replaces its own: a growing string takes up to twice its size.
 size_t memory_of_copy(const ProbeVolumeView& volume) {
-    size_t bytes = 0;
+    size_t bytes = 2 * volume.metadata.size();
     for_each_volume_member([&](const char*, MemberUse, auto, auto member) {
         bytes += (volume.*member).size() * sizeof((volume.*member)[0]);
     });
@@ -70,10 +74,11 @@ void store(tetralight_volume& volume, std::unique_ptr<const ProbeVolume> relit) 
     volume.layers = {};
 }
 
-/// Calls `relight(copy)` for a copy of the volume, which takes its place if that succeeds.
+/// Calls `relight(copy)` for a copy of the volume, which takes its place if that succeeds. `call`:
+/// the name of the function, which metadata records.
 template <class Relight>
-tetralight_status relight_copy(tetralight_volume& volume, tetralight_error* error,
-                               Relight relight) {
+tetralight_status relight_copy(tetralight_volume& volume, std::string_view call,
+                               tetralight_error* error, Relight relight) {
     const ProbeVolumeView& from = view_of(volume);
     if (auto wrong = check_memory("a copy of the volume", memory_of_copy(from))) {
         return finish(wrong, error);
@@ -81,6 +86,7 @@ tetralight_status relight_copy(tetralight_volume& volume, tetralight_error* erro
     auto copy = std::unique_ptr<ProbeVolume>(new (std::nothrow) ProbeVolume(copy_volume(from)));
     if (!copy) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
     if (auto status = relight(*copy); !status) return finish(status.error(), error);
+    copy->metadata = record_relit(copy->metadata, call);
     store(volume, std::move(copy));
     return succeed(error);
 }
@@ -112,7 +118,7 @@ tetralight_status tetralight_relight_sky(tetralight_volume* volume, const float*
     DistantLight light;
     static_assert(sizeof light == 48 * sizeof(float));
     std::memcpy(static_cast<void*>(&light), sky, sizeof light);
-    return relight_copy(*volume, error,
+    return relight_copy(*volume, __func__, error,
                         [&](ProbeVolume& copy) { return relight_sky(copy, light); });
 }
 
@@ -126,7 +132,7 @@ tetralight_status tetralight_relight_sun(tetralight_volume* volume, const float*
     if (auto wrong = check_relight(view_of(*volume), DistantLayer::Sun)) {
         return finish(wrong, error);
     }
-    return relight_copy(*volume, error, [&](ProbeVolume& copy) {
+    return relight_copy(*volume, __func__, error, [&](ProbeVolume& copy) {
         return relight_sun(copy, glm::make_vec3(direction), glm::make_vec3(irradiance));
     });
 }
@@ -135,6 +141,12 @@ tetralight_status tetralight_save(const tetralight_volume* volume, const char* p
                                   tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     if (auto wrong = check_pointer("path", path)) return finish(wrong, error);
+    if (!volume->file) {
+        return finish({TETRALIGHT_UNSUPPORTED, "joined volumes cannot be saved as one"}, error);
+    }
+    if (auto wrong = check_memory("a block of the file", kComparedBlockSize)) {
+        return finish(wrong, error);
+    }
     const auto status = write_probe_file(path, view_of(*volume));
     return status ? succeed(error) : finish(file_error(status.error()), error);
 }

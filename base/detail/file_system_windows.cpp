@@ -5,9 +5,11 @@
 #endif
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
+#include <winioctl.h>
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -191,22 +193,85 @@ Result<size_t> read_up_to(const Handle& file, std::span<std::byte> memory,
     return done;
 }
 
-/// The path without its links if it exists.
-std::wstring without_links(const std::wstring& path) {
+/// Opens a file or a folder to ask about it, not to read it.
+Handle open_to_ask(const std::wstring& path, DWORD flags) {
     constexpr DWORD kShare = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-    const Handle file(::CreateFileW(path.c_str(), 0, kShare, nullptr, OPEN_EXISTING,
-                                    FILE_FLAG_BACKUP_SEMANTICS, nullptr));
-    if (!file.is_open()) return path;
+    return Handle(::CreateFileW(path.c_str(), FILE_READ_ATTRIBUTES, kShare, nullptr, OPEN_EXISTING,
+                                FILE_FLAG_BACKUP_SEMANTICS | flags, nullptr));
+}
+
+/// The path without its links; empty if it leads to nothing.
+std::wstring without_links(const std::wstring& path) {
+    const Handle file = open_to_ask(path, 0);
+    if (!file.is_open()) return {};
     const DWORD size = ::GetFinalPathNameByHandleW(file.get(), nullptr, 0, FILE_NAME_NORMALIZED);
     std::wstring end(size, L'\0');
     end.resize(::GetFinalPathNameByHandleW(file.get(), end.data(), size, FILE_NAME_NORMALIZED));
-    return end.empty() ? path : end;
+    return end;
 }
 
 bool is_link(const std::wstring& path) {
     const DWORD attributes = ::GetFileAttributesW(path.c_str());
     return attributes != INVALID_FILE_ATTRIBUTES &&
            (attributes & FILE_ATTRIBUTE_REPARSE_POINT) != 0;
+}
+
+/// How the data of a symbolic link begin (REPARSE_DATA_BUFFER of Windows' driver kit). Names
+/// follow; places and sizes are bytes.
+struct LinkData {
+    DWORD tag;
+    WORD size, reserved;
+    WORD target_place, target_size;
+    WORD shown_place, shown_size;
+    DWORD flags;
+};
+
+static_assert(sizeof(LinkData) == 20);
+
+/// The path that a symbolic link holds, from its drive on; empty if it is not known.
+std::wstring target_of_link(const std::wstring& link) {
+    const Handle file = open_to_ask(link, FILE_FLAG_OPEN_REPARSE_POINT);
+    std::array<std::byte, MAXIMUM_REPARSE_DATA_BUFFER_SIZE> memory;
+    DWORD size = 0;
+    if (!file.is_open() ||
+        ::DeviceIoControl(file.get(), FSCTL_GET_REPARSE_POINT, nullptr, 0, memory.data(),
+                          static_cast<DWORD>(memory.size()), &size, nullptr) == 0 ||
+        size < sizeof(LinkData)) {
+        return {};
+    }
+    LinkData data;
+    std::memcpy(&data, memory.data(), sizeof data);
+    const size_t begin = sizeof data + data.target_place;
+    if (data.tag != IO_REPARSE_TAG_SYMLINK || begin + data.target_size > size) return {};
+    std::wstring target(data.target_size / sizeof(wchar_t), L'\0');
+    std::memcpy(target.data(), memory.data() + begin, target.size() * sizeof(wchar_t));
+    constexpr DWORD kIsRelative = 1;
+    if ((data.flags & kIsRelative) != 0) {
+        // From the link's folder, or from its drive.
+        const size_t end = target.starts_with(L'\\') ? link.find(L':') : link.rfind(L'\\');
+        return end == std::wstring::npos ? L"" : full_path(link.substr(0, end + 1) + target);
+    }
+    // The kernel's prefix of a path from its drive on.
+    return target.starts_with(L"\\??\\") ? L"\\\\?\\" + target.substr(4) : target;
+}
+
+Error link_error(const std::string& path, const char* why) {
+    return {ErrorCode::InvalidArgument, "", path,
+            str_cat(shown_path(path), ": cannot write (", why, ")")};
+}
+
+/// See `follow_links` in file_writer.h. The links may lead to a file that does not exist.
+Result<std::wstring> end_of_links(const std::string& path, std::wstring end) {
+    constexpr int kMostLinks = 40;  // as many as POSIX systems follow
+    for (int i = 0; i < kMostLinks; ++i) {
+        if (!is_link(end)) return end;
+        std::wstring next = without_links(end);
+        if (!next.empty()) return next;
+        next = target_of_link(end);
+        if (next.empty()) return link_error(path, "its link cannot be followed");
+        end = std::move(next);
+    }
+    return link_error(path, "its symbolic links form a cycle");
 }
 
 class WindowsFile final : public NewFile {
@@ -323,7 +388,9 @@ Status open_output(WindowsFile& file, const std::string& path) {
     if (target->starts_with(L"\\\\.\\")) return file.open_device(*target);
     if (is_folder(*target)) return not_a_regular_file(path, true);
     // A link stays, and what it leads to is replaced.
-    return file.open_beside(is_link(*target) ? without_links(*target) : *target);
+    target = end_of_links(path, std::move(*target));
+    if (!target) return target.error();
+    return file.open_beside(std::move(*target));
 }
 
 }  // namespace
@@ -362,7 +429,10 @@ void release_mapped_pages(std::span<const std::byte> bytes) noexcept {
 Result<std::string> follow_file_links(const std::string& path) {
     const auto name = system_path(path);
     if (!name) return name.error();
-    return is_link(*name) ? utf8_of(without_links(*name)) : path;
+    if (!is_link(*name)) return path;
+    const auto end = end_of_links(path, *name);
+    if (!end) return end.error();
+    return utf8_of(*end);
 }
 
 Result<std::unique_ptr<NewFile>> open_new_file(const std::string& path) {

@@ -21,7 +21,8 @@ export class Tetralight {
     }
 
     allocate(size) {
-        const address = this.exports.malloc(Math.max(size, 1));
+        // JavaScript receives addresses as signed numbers.
+        const address = this.exports.malloc(Math.max(size, 1)) >>> 0;
         if (address === 0) throw new Error(`no memory for ${size} bytes`);
         return address;
     }
@@ -49,9 +50,10 @@ export class Tetralight {
 
     /** Opens the bytes of a probe volume. Returns its handle. */
     open(bytes) {
-        const file = this.copy(new Uint8Array(bytes));
         const out = this.allocate(4);
+        let file = 0;
         try {
+            file = this.copy(new Uint8Array(bytes));
             this.check(this.exports.tetralight_open_memory(file, bytes.byteLength, out, this.error));
             return this.view(Uint32Array, out, 1)[0];
         } finally {
@@ -66,8 +68,11 @@ export class Tetralight {
 
     recombine(volume, weights) {
         const copy = this.copy(new Float32Array(weights));
-        this.check(this.exports.tetralight_recombine(volume, copy, weights.length, this.error));
-        this.exports.free(copy);
+        try {
+            this.check(this.exports.tetralight_recombine(volume, copy, weights.length, this.error));
+        } finally {
+            this.exports.free(copy);
+        }
     }
 }
 

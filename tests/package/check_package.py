@@ -11,6 +11,7 @@ check_package.py debian PREFIX SHIP_BUILD
 check_package.py folders PREFIX
 check_package.py subproject SOURCES
 check_package.py unity SOURCES BUILD
+check_package.py prefix SOURCES
 """
 import json
 import os
@@ -240,6 +241,21 @@ def check_unity(sources, folder):
     print(f"{len(combined)} of {len(entries)} compilations combine sources; {compiled} made again")
 
 
+def check_prefix(sources):
+    """pkg-config finds the prefix from any folder of libraries."""
+    for libraries in ("lib", "lib64", "lib/x86_64-linux-gnu"):
+        with tempfile.TemporaryDirectory() as folder:
+            prefix = Path(folder).resolve() / "prefix"
+            run(["cmake", "--preset", "ship", "-B", folder, f"-DCMAKE_INSTALL_LIBDIR={libraries}",
+                 "-DTETRALIGHT_BUILD_TESTS=OFF"], sources, "")
+            packages = prefix / libraries / "pkgconfig"
+            packages.mkdir(parents=True)
+            for name in ("tetralight", "tetralight-shared"):
+                shutil.copy(Path(folder) / f"{name}.pc", packages)
+                found = run(["pkg-config", "--variable=prefix", name], folder, str(prefix)).strip()
+                assert Path(found).resolve() == prefix, (libraries, name, found)
+
+
 def listing(folder):
     return sorted(str(p.relative_to(folder)) for p in Path(folder).rglob("*") if p.is_file())
 
@@ -269,5 +285,6 @@ if __name__ == "__main__":
     checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
               "example": check_example,
               "components": check_components, "shared": check_shared, "debian": check_debian,
-              "folders": check_folders, "subproject": check_subproject, "unity": check_unity}
+              "folders": check_folders, "subproject": check_subproject, "unity": check_unity,
+              "prefix": check_prefix}
     checks[sys.argv[1]](*sys.argv[2:])

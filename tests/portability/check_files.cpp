@@ -41,6 +41,7 @@ class FileCheck {
         replace_a_mapped_file();
         name_what_is_missing();
         write_to_a_long_path();
+        write_through_a_link();
         refuse_paths_that_are_not_utf8();
         expect(names_in(folder_).size() == file_count_, "a temporary file remains");
         return std::move(wrong_);
@@ -147,12 +148,32 @@ class FileCheck {
         for (int i = 0; i < 4; ++i) folder += "/" + std::string(60, 'x');
         std::error_code failure;
         fs::create_directories(folder, failure);
-        if (failure) return;  // this system has no such folders
+        if (failure) {  // this system has no such folders
+            fs::remove_all(path("long"), failure);
+            return;
+        }
         const std::string file = folder + "/" + std::string(60, 'y');
         const auto status = write_file(file, bytes_of("deep"));
         expect(bool(status), "a long path is refused");
         expect_text(file, "deep", "a file with a long path cannot be read");
         ++file_count_;
+    }
+
+    /// A link stays. What it leads to is written, though at first there is no such file.
+    void write_through_a_link() {
+        const std::string link = path("link");
+        std::error_code failure;
+        fs::remove(link, failure);
+        fs::remove(path("end"), failure);
+        fs::create_symlink("end", link, failure);
+        if (failure) return;  // this system, or this user, has no links
+        for (const char* text : {"new", "newer"}) {
+            expect(bool(write_file(link, bytes_of(text))), "a file cannot be written by its link");
+            expect_text(path("end"), text,
+                        "what a link leads to has other bytes than were written");
+        }
+        expect(fs::is_symlink(link), "a link was replaced");
+        file_count_ += 2;
     }
 
     /// Elsewhere than on Windows a path is bytes, and such a file may exist.

@@ -103,6 +103,34 @@ function refusesDamage(tetralight, file) {
     return false;
 }
 
+/** Calls that fail free what was copied in for them. */
+function freesAfterFailures(tetralight, file) {
+    let allocated = 0;
+    const {malloc, free} = tetralight.exports;
+    const counted = new Tetralight({
+        ...tetralight.exports,
+        malloc: (size) => (allocated += 1, malloc(size)),
+        free: (address) => (allocated -= address === 0 ? 0 : 1, free(address)),
+    });
+    const before = allocated;
+    const volume = counted.open(file);
+    for (const call of [() => counted.recombine(volume, [-1]), () => counted.open(new ArrayBuffer(64))]) {
+        try {
+            call();
+            return false;
+        } catch {
+            // That was expected.
+        }
+    }
+    counted.close(volume);
+    return allocated === before;
+}
+
+/** Addresses from 2 GiB up, which a module returns as negative numbers, are positive. */
+function hasUnsignedAddresses() {
+    return new Tetralight({malloc: () => -16}).allocate(1) === 2 ** 32 - 16;
+}
+
 const moduleBytes = readFileSync(modulePath);
 const imports = WebAssembly.Module.imports(new WebAssembly.Module(moduleBytes));
 const wrong = imports.map(({module, name}) => `the module imports ${module}.${name}`);
@@ -121,7 +149,9 @@ if (wrong.length === 0) {
         }
         if (words.place !== words.words.length) wrong.push(`${name}: the file of cases is damaged`);
         if (!refusesDamage(tetralight, file)) wrong.push(`${name}: a damaged file is not refused`);
+        if (!freesAfterFailures(tetralight, file)) wrong.push(`${name}: memory is lost by a call that fails`);
     }
+    if (!hasUnsignedAddresses()) wrong.push('addresses from 2 GiB up are negative');
 }
 for (const line of wrong) console.error(line);
 const kilobytes = Math.round(moduleBytes.length / 1000);

@@ -24,7 +24,7 @@ def run_command(*arguments):
     command = os.environ.get("TETRALIGHT_COMMAND")
     if not command:
         raise unittest.SkipTest("TETRALIGHT_COMMAND is not set")
-    subprocess.run([command, *map(str, arguments)], check=True, capture_output=True, text=True)
+    return subprocess.run([command, *map(str, arguments)], check=True, capture_output=True, text=True)
 
 
 @functools.lru_cache(maxsize=None)

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
+import os
+import subprocess
 import threading
 import unittest
 
 import numpy as np
 
 import tetralight
-from support import baked, temporary_path, vector_path
+from support import baked, run_command, temporary_path, vector_path
 
 
 class Recombine(unittest.TestCase):
@@ -102,6 +104,29 @@ class Relight(unittest.TestCase):
         path = temporary_path("relit.probes")
         volume.save(path)
         np.testing.assert_allclose(tetralight.open(path).irradiance, volume.irradiance, 1e-3, 1e-3)
+
+    def test_is_recorded(self):
+        volume = self.open()
+        baked_with = volume.metadata
+        volume.recombine(sun=0.5)
+        self.assertEqual(volume.metadata, baked_with)
+        volume.relight(sky=3)
+        self.assertEqual(volume.metadata, {**baked_with, "relit": "tetralight_relight_sky"})
+        volume.relight(sky=2, sun_direction=(0, -1, 0), sun_irradiance=(1, 1, 1))
+        self.assertEqual(volume.metadata["relit"], "tetralight_relight_sky tetralight_relight_sun")
+
+    def test_is_not_taken_for_the_light_of_the_scene(self):
+        volume, path, scene = self.open(), temporary_path("dusk.probes"), os.environ["TETRALIGHT_COURTYARD"]
+        volume.relight(sky=3)
+        volume.save(path)
+        for check in (["verify", scene, path], ["check-leaks", path, "--scene", scene]):
+            with self.assertRaises(subprocess.CalledProcessError) as failed:
+                run_command(*check, "--quiet")
+            self.assertEqual(failed.exception.returncode, 1)
+            self.assertIn("the volume was relit: its light is not that of the scene", failed.exception.stderr)
+        again = run_command("bake", scene, "--samples", 8, "--layers", "sky,sun,transfer", "--reuse", path,
+                            "-o", temporary_path("again.probes"))
+        self.assertIn("relit with \"tetralight_relight_sky\"", again.stderr)
 
     def test_refuses_wrong_light(self):
         volume = self.open()

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -50,7 +51,9 @@ class OutOfMemory : public testing::Test {
         ProbeVolume data = test::make_random_volume(test::random_positions(3000, 1), 2);
         data.layers.resize(1);
         data.layers[0].largest = 10.0f;
-        data.layer_names = "rest\n";
+        data.layer_names = "sky\n";
+        data.transfer.resize(3000);
+        data.sky.resize(1);
         data.layer_irradiance = data.irradiance;
         const std::string path = folder.write("test.probes", probe_file_bytes(data.view()));
         ASSERT_EQ(tetralight_open(path.c_str(), &volume, &error), TETRALIGHT_OK) << error.message;
@@ -72,6 +75,27 @@ TEST_F(OutOfMemoryDeathTest, RecombineIsRefused) {
         end_with(tetralight_recombine(volume, &weight, 1, &error), error, "324128 bytes");
     };
     EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");  // 3000 x 108 + 128
+}
+
+TEST_F(OutOfMemoryDeathTest, RelightIsRefused) {
+    const std::vector<float> sky(48, 0.5f);
+    const auto child = [&] {
+        leave_little_memory();
+        end_with(tetralight_relight_sky(volume, sky.data(), &error), error,
+                 "no memory for a copy of the volume: ");
+    };
+    EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(OutOfMemoryDeathTest, SaveIsRefused) {
+    const std::string path = folder.write("old.probes", "old");
+    const auto child = [&] {
+        leave_little_memory();
+        end_with(tetralight_save(volume, path.c_str(), &error), error,
+                 "no memory for a block of the file: 1048576 bytes");
+    };
+    EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
+    EXPECT_EQ(std::filesystem::file_size(path), 3u);
 }
 
 TEST_F(OutOfMemoryDeathTest, CopiesOfFilesAreRefused) {

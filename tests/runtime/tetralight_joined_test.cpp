@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/tetralight.h>
@@ -92,6 +93,17 @@ TEST_F(CApiJoined, LightsWithAllThatJoinedAndHaveNotLeft) {
         EXPECT_NEAR(after.packed[i], before.packed[i], 1e-5f);
     }
     EXPECT_EQ(tetralight_verify(volume, &error), TETRALIGHT_OK);
+}
+
+TEST_F(CApiJoined, IsNotSaved) {
+    ASSERT_EQ(tetralight_joined_add(joined, "hall", hall, &error), TETRALIGHT_OK);
+    finish();
+    const std::string path = folder.write("old.probes", "old");
+    EXPECT_EQ(tetralight_save(tetralight_joined_volume(joined), path.c_str(), &error),
+              TETRALIGHT_UNSUPPORTED);
+    EXPECT_STREQ(error.message, "joined volumes cannot be saved as one");
+    EXPECT_EQ(std::filesystem::file_size(path), 3u);
+    EXPECT_EQ(tetralight_save(hall, path.c_str(), &error), TETRALIGHT_OK) << error.message;
 }
 
 TEST_F(CApiJoined, SaysWhatIsWrong) {

@@ -33,6 +33,7 @@ ProbeVolume make_volume() {
     volume.light_states = {{MixedLighting::Shadowmask, 2, 0, 0}};
     volume.occlusion_lights.assign(20, {kNoIndex, kNoIndex, 0, kNoIndex});
     volume.occlusion.assign(20, glm::vec4(0.5f));
+    volume.metadata = R"({"samples":16})";
     make_compact_probes(volume);
     return volume;
 }
@@ -81,6 +82,7 @@ TEST_F(CApiRelight, SkyIsThatOfTheLibrary) {
     EXPECT_EQ(details.can_relight_sun, 1u);
     ASSERT_EQ(tetralight_relight_sky(volume, sky_floats, &error), TETRALIGHT_OK) << error.message;
     ASSERT_TRUE(relight_sky(data, sky));
+    data.metadata = R"({"samples":16,"relit":"tetralight_relight_sky"})";
     expect_data();
 }
 
@@ -88,6 +90,7 @@ TEST_F(CApiRelight, SunIsThatOfTheLibrary) {
     ASSERT_EQ(tetralight_relight_sun(volume, direction, irradiance, &error), TETRALIGHT_OK)
         << error.message;
     ASSERT_TRUE(relight_sun(data, {0.0f, -0.8f, 0.6f}, {5.0f, 4.0f, 3.0f}));
+    data.metadata = R"({"samples":16,"relit":"tetralight_relight_sun"})";
     expect_data();
     tetralight_scene_light light{};
     ASSERT_EQ(tetralight_get_scene_light(volume, 0, &light, &error), TETRALIGHT_OK);
@@ -102,11 +105,20 @@ TEST_F(CApiRelight, RecombineWeighsTheNewLayers) {
     ASSERT_EQ(tetralight_relight_sky(volume, sky_floats, &error), TETRALIGHT_OK);
     ASSERT_TRUE(recombine(data, std::vector<float>(before, before + 3)));
     ASSERT_TRUE(relight_sky(data, sky));
+    data.metadata = R"({"samples":16,"relit":"tetralight_relight_sky"})";
     expect_data();
     ASSERT_EQ(tetralight_recombine(volume, after, 3, &error), TETRALIGHT_OK);
     ASSERT_EQ(tetralight_relight_sun(volume, direction, irradiance, &error), TETRALIGHT_OK);
     ASSERT_TRUE(recombine(data, std::vector<float>(after, after + 3)));
     ASSERT_TRUE(relight_sun(data, {0.0f, -0.8f, 0.6f}, {5.0f, 4.0f, 3.0f}));
+    data.metadata = R"({"samples":16,"relit":"tetralight_relight_sky tetralight_relight_sun"})";
+    expect_data();
+}
+
+TEST_F(CApiRelight, WeightsAreNotRecordedAsRelit) {
+    const float weights[] = {0.5f, 2.0f, 1.0f};
+    ASSERT_EQ(tetralight_recombine(volume, weights, 3, &error), TETRALIGHT_OK);
+    ASSERT_TRUE(recombine(data, weights));
     expect_data();
 }
 

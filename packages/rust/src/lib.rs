@@ -19,7 +19,7 @@
 //! to memory of the size that it states. No exception leaves a call.
 //!
 //! Memory: queries and packing do not allocate. The calls that need much memory (open_memory,
-//! recombine, relight, fill_lppv, make_shader_volume) first ask for all of it, and return
+//! recombine, relight, save, fill_lppv, make_shader_volume) first ask for all of it, and return
 //! TETRALIGHT_OUT_OF_MEMORY if the system refuses. The program still ends in three cases: if a
 //! message or another small piece (below 64 KiB a call) cannot be allocated, if the system promises
 //! more memory than it has, and if another thread takes the memory in between
@@ -64,7 +64,8 @@ pub const TETRALIGHT_NOT_THERE: tetralight_status = 5;
 pub const TETRALIGHT_OUT_OF_MEMORY: tetralight_status = 6;
 /// The bytes of the file are wrong: opening it again fails again.
 pub const TETRALIGHT_CORRUPT: tetralight_status = 7;
-/// The file is valid, but this version of the library cannot read it.
+/// The file is valid, but this version of the library cannot read it. Or joined volumes were to
+/// be saved.
 pub const TETRALIGHT_UNSUPPORTED: tetralight_status = 8;
 /// The file cannot be read now (I/O error, permissions, network): try again later.
 pub const TETRALIGHT_UNAVAILABLE: tetralight_status = 9;
@@ -593,7 +594,8 @@ extern "C" {
     pub fn tetralight_get_layer(volume: *const tetralight_volume, index: u32, layer: *mut tetralight_layer, error: *mut tetralight_error) -> tetralight_status;
 
     /// An array of a volume without a copy, `which` a tetralight_volume_array. `stride` is not 0.
-    /// Valid until a call that changes the volume (recombine, relight, close; of joined volumes commit).
+    /// Valid until a call that changes the volume (recombine, relight, close; of joined volumes commit
+    /// and destroy).
     /// Returns TETRALIGHT_NOT_THERE if the array is empty: files can hold light as floats, as halves or
     /// both.
     pub fn tetralight_get_array(volume: *const tetralight_volume, which: u32, array: *mut tetralight_const_array, error: *mut tetralight_error) -> tetralight_status;
@@ -612,20 +614,25 @@ extern "C" {
     /// Replaces the sky: layer "sky" becomes the light that the probes transfer from it, and the light
     /// of the volume its sum with the other layers at their weights. `sky`: 48 floats, its radiance as
     /// 16 RGB coefficients of bands 0 to 3, L_i = integral of L Y_i (probes/distant_light.h);
-    /// TETRALIGHT_ARRAY_SKY is the present one. Returns TETRALIGHT_NOT_THERE if the volume holds no
-    /// transfer or no layer "sky". Memory and cost: a copy of the volume.
+    /// TETRALIGHT_ARRAY_SKY is the present one. The metadata records the name of this function in
+    /// member "relit": `tetralight verify` and bakes that reuse probes then know that the light is not
+    /// that of the scene. Returns TETRALIGHT_NOT_THERE if the volume holds no transfer or no layer
+    /// "sky". Memory and cost: a copy of the volume.
     pub fn tetralight_relight_sky(volume: *mut tetralight_volume, sky: *const f32, error: *mut tetralight_error) -> tetralight_status;
 
     /// Moves the sun: layer "sun" becomes the light that the probes transfer from a sun that shines
     /// along the unit vector `direction` (three floats), with `irradiance` (three floats, >= 0) on a
     /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its
-    /// occlusion is that of the old direction, and it loses its channel. Returns TETRALIGHT_NOT_THERE if
-    /// the volume holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of
-    /// the volume.
+    /// occlusion is that of the old direction, and it loses its channel. The metadata records the change
+    /// as with `tetralight_relight_sky`. Returns TETRALIGHT_NOT_THERE if the volume holds no transfer,
+    /// or not exactly one sun in layer "sun". Memory and cost: a copy of the volume.
     pub fn tetralight_relight_sun(volume: *mut tetralight_volume, direction: *const f32, irradiance: *const f32, error: *mut tetralight_error) -> tetralight_status;
 
     /// Writes the volume with its present light to a file, which replaces an older one only as a
-    /// whole. Sections of the opened file that are not of the volume are left out.
+    /// whole. Sections of the opened file that are not of the volume are left out. Memory: 1 MiB, with
+    /// which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for joined volumes: each of
+    /// them can be saved. Windows does not replace a file while it is open, here or in another program:
+    /// the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was opened from.
     pub fn tetralight_save(volume: *const tetralight_volume, path: *const c_char, error: *mut tetralight_error) -> tetralight_status;
 
     /// The light at one position (three floats), of the probes that no wall hides; a batch of one has

@@ -75,14 +75,10 @@ class Contents:
         view = self._view(c.ARRAY_STANDARD_ERROR, (), np.float32)
         return read_only(np.zeros(self._probe_count, np.float32)) if view is None else view
 
-    @functools.cached_property
-    def _metadata(self) -> str:
-        return self._text(c.ARRAY_METADATA)
-
     def metadata(self) -> dict[str, Any]:
         import json
 
-        made: dict[str, Any] = json.loads(self._metadata or "{}")
+        made: dict[str, Any] = json.loads(self._text(c.ARRAY_METADATA) or "{}")
         return made
 
     def ambient(self) -> AnyArray:
@@ -121,7 +117,7 @@ class Contents:
 
     def prepare_change(self) -> None:
         """Before a call that changes the light: what does not change is shown from the file."""
-        for name in ("positions", "cells", "neighbors", "validity", "standard_error", "_metadata"):
+        for name in ("positions", "cells", "neighbors", "validity", "standard_error"):
             getattr(self, name)
         self._is_changed = True
         self._irradiance = None
