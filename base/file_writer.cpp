@@ -25,6 +25,10 @@ FileWriter::FileWriter(FileWriter&& other) noexcept = default;
 FileWriter::~FileWriter() = default;
 
 Result<FileWriter> FileWriter::open(const std::string& path) {
+    if (path.empty()) {
+        return Error{ErrorCode::InvalidArgument, "", path,
+                     shown_path(path) + ": cannot write (the path is empty)"};
+    }
     auto file = detail::open_new_file(path);
     if (!file) return file.error();
     return FileWriter(detail::output_name(path), std::move(*file));

@@ -27,7 +27,8 @@ using FilePieces = std::span<const std::span<const std::byte>>;
 /// unnamed files (O_TMPFILE) this holds for a killed process, too.
 class FileWriter {
   public:
-    /// `-` (stdout) and devices are written to directly.
+    /// `-` (stdout) and devices are written to directly. Returns invalid_argument if `path` is
+    /// empty.
     [[nodiscard]] static Result<FileWriter> open(const std::string& path);
 
     FileWriter(FileWriter&& other) noexcept;

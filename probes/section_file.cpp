@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/section_error.h>
 
@@ -15,12 +16,17 @@
 namespace tetralight::detail {
 namespace {
 
+/// A damaged file may hold any bytes as a name; messages stay one line of text.
+std::string shown_name(const SectionEntry& entry) {
+    return shown_path(section_name(entry));
+}
+
 Error wrong_kind(const SectionFileKind& kind, const char* why) {
     return {ErrorCode::Corrupt, str_cat("not a ", kind.name, " (", why, ")")};
 }
 
 Status check_entry(const SectionEntry& entry, uint64_t end_of_previous, uint64_t file_size) {
-    const std::string name = section_name(entry);
+    const std::string name = shown_name(entry);
     if (entry.offset % kAlignment != 0 || entry.offset < end_of_previous) {
         return section_error(name, str_cat("offset ", entry.offset, " is out of place"));
     }
@@ -102,8 +108,9 @@ Result<std::span<const SectionEntry>> read_section_table(const SectionFileKind& 
     std::set<std::string> names;
     for (const SectionEntry& entry : table) {
         if (!names.insert(section_name(entry)).second) {
-            return Error{ErrorCode::Corrupt, section_name(entry), "",
-                         str_cat("section \"", section_name(entry), "\" occurs twice")};
+            const std::string name = shown_name(entry);
+            return Error{ErrorCode::Corrupt, name, "",
+                         str_cat("section \"", name, "\" occurs twice")};
         }
         if (auto status = check_entry(entry, end, file.size()); !status) return status.error();
         end = entry.offset + entry.size();
@@ -115,11 +122,11 @@ Status verify_checksums(std::span<const std::byte> file, std::span<const Section
     uint64_t end = sizeof(FileHeader) + table.size_bytes();
     for (const SectionEntry& entry : table) {
         if (!are_zero(part_of(file, end, entry.offset - end))) {
-            return Error{ErrorCode::Corrupt, str_cat("bytes before section \"", section_name(entry),
-                                                     "\" are not zero")};
+            return Error{ErrorCode::Corrupt,
+                         str_cat("bytes before section \"", shown_name(entry), "\" are not zero")};
         }
         if (checksum(part_of(file, entry.offset, entry.size())) != entry.checksum) {
-            const std::string name = section_name(entry);
+            const std::string name = shown_name(entry);
             return Error{ErrorCode::Corrupt, name, "",
                          str_cat("section \"", name, "\" is corrupt (wrong checksum)")};
         }

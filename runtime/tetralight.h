@@ -438,10 +438,11 @@ tetralight_relight_sun(tetralight_volume* volume, const float* direction, const 
                        tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Writes the volume with its present light to a file, which replaces an older one only as a
- * whole. Sections of the opened file that are not of the volume are left out. Memory: 1 MiB, with
- * which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for joined volumes: each of
- * them can be saved. Windows does not replace a file while it is open, here or in another program:
- * the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was opened from. */
+ * whole; path "-" is stdout. Sections of the opened file that are not of the volume are left out.
+ * Memory: 1 MiB, with which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for
+ * joined volumes: each of them can be saved. Windows does not replace a file while it is open, here
+ * or in another program: the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was
+ * opened from. */
 TETRALIGHT_API tetralight_status tetralight_save(const tetralight_volume* volume, const char* path,
                                                  tetralight_error* error) TETRALIGHT_NOEXCEPT;
 

@@ -672,10 +672,11 @@ namespace Tetralight
         public static extern tetralight_status tetralight_relight_sun(tetralight_volume* volume, float* direction, float* irradiance, tetralight_error* error);
 
         /// <summary>Writes the volume with its present light to a file, which replaces an older one only as a
-        /// whole. Sections of the opened file that are not of the volume are left out. Memory: 1 MiB, with
-        /// which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for joined volumes: each of
-        /// them can be saved. Windows does not replace a file while it is open, here or in another program:
-        /// the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was opened from.</summary>
+        /// whole; path "-" is stdout. Sections of the opened file that are not of the volume are left out.
+        /// Memory: 1 MiB, with which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for
+        /// joined volumes: each of them can be saved. Windows does not replace a file while it is open, here
+        /// or in another program: the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was
+        /// opened from.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern tetralight_status tetralight_save(tetralight_volume* volume, byte* path, tetralight_error* error);
 

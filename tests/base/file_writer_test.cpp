@@ -135,6 +135,9 @@ TEST_F(FileWriterTest, NamesWhatCannotBeWritten) {
     const auto writer = FileWriter::open(target() + "/b");  // "a" is no folder
     ASSERT_FALSE(writer);
     EXPECT_NE(error_text(writer.error()).find(target() + "/b: cannot write"), std::string::npos);
+    const auto nowhere = FileWriter::open("");
+    ASSERT_FALSE(nowhere);
+    EXPECT_EQ(error_text(nowhere.error()), R"("": cannot write (the path is empty))");
     auto full = FileWriter::open("/dev/full");
     ASSERT_TRUE(full);
     EXPECT_FALSE(write(*full, "no room"));

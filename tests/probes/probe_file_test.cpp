@@ -208,6 +208,21 @@ TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
     EXPECT_EQ(file.error().field, "sky");
 }
 
+TEST_F(ProbeFileTest, ShowsAnyNameOfASectionInOneLine) {
+    std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    auto* header = reinterpret_cast<detail::FileHeader*>(bytes.data());
+    auto* entries = reinterpret_cast<detail::SectionEntry*>(bytes.data() + sizeof *header);
+    entries[0].name = {'a', '\n', '\x1b', '\xff'};
+    entries[0].offset += 1;
+    header->checksum = detail::header_checksum(*header, {entries, header->section_count});
+    write(bytes);
+    const auto file = open_probe_file(path);
+    ASSERT_FALSE(file);
+    EXPECT_NE(error_text(file.error()).find(R"(a\x0a\x1b\xff)"), std::string::npos)
+        << error_text(file.error());
+    EXPECT_EQ(file.error().field, R"(a\x0a\x1b\xff)");
+}
+
 TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
     using Break = void (*)(ProbeVolume&);
     for (const Break break_it : std::initializer_list<Break>{

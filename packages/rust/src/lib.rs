@@ -629,10 +629,11 @@ extern "C" {
     pub fn tetralight_relight_sun(volume: *mut tetralight_volume, direction: *const f32, irradiance: *const f32, error: *mut tetralight_error) -> tetralight_status;
 
     /// Writes the volume with its present light to a file, which replaces an older one only as a
-    /// whole. Sections of the opened file that are not of the volume are left out. Memory: 1 MiB, with
-    /// which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for joined volumes: each of
-    /// them can be saved. Windows does not replace a file while it is open, here or in another program:
-    /// the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was opened from.
+    /// whole; path "-" is stdout. Sections of the opened file that are not of the volume are left out.
+    /// Memory: 1 MiB, with which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for
+    /// joined volumes: each of them can be saved. Windows does not replace a file while it is open, here
+    /// or in another program: the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was
+    /// opened from.
     pub fn tetralight_save(volume: *const tetralight_volume, path: *const c_char, error: *mut tetralight_error) -> tetralight_status;
 
     /// The light at one position (three floats), of the probes that no wall hides; a batch of one has
