@@ -6,9 +6,10 @@
 
 namespace tetralight::detail {
 
-/// Metadata that records in its member "relit" that a call changed the light after the bake, as
-/// `tetralight relight` records its options there. `call` is added once to an earlier record.
-/// Metadata that is not a JSON object is replaced. Precondition: `call` is a name.
+/// Adds the name of a call that changed the light to the member "relit" of metadata, where
+/// `tetralight relight` records its options. A name that is there is not added again, so that a
+/// game can relight in each frame. Metadata that is not a JSON object is replaced by one.
+/// Precondition: `call` needs no escapes in JSON.
 [[nodiscard]] std::string record_relit(std::string_view metadata, std::string_view call);
 
 }  // namespace tetralight::detail

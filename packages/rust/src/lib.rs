@@ -64,8 +64,7 @@ pub const TETRALIGHT_NOT_THERE: tetralight_status = 5;
 pub const TETRALIGHT_OUT_OF_MEMORY: tetralight_status = 6;
 /// The bytes of the file are wrong: opening it again fails again.
 pub const TETRALIGHT_CORRUPT: tetralight_status = 7;
-/// The file is valid, but this version of the library cannot read it. Or joined volumes were to
-/// be saved.
+/// This version of the library cannot read a file that is valid, or save joined volumes.
 pub const TETRALIGHT_UNSUPPORTED: tetralight_status = 8;
 /// The file cannot be read now (I/O error, permissions, network): try again later.
 pub const TETRALIGHT_UNAVAILABLE: tetralight_status = 9;
@@ -614,8 +613,8 @@ extern "C" {
     /// Replaces the sky: layer "sky" becomes the light that the probes transfer from it, and the light
     /// of the volume its sum with the other layers at their weights. `sky`: 48 floats, its radiance as
     /// 16 RGB coefficients of bands 0 to 3, L_i = integral of L Y_i (probes/distant_light.h);
-    /// TETRALIGHT_ARRAY_SKY is the present one. The metadata records the name of this function in
-    /// member "relit": `tetralight verify` and bakes that reuse probes then know that the light is not
+    /// TETRALIGHT_ARRAY_SKY is the present one. Adds the name of this function to member "relit" of
+    /// the metadata: `tetralight verify` and bakes that reuse probes then know that the light is not
     /// that of the scene. Returns TETRALIGHT_NOT_THERE if the volume holds no transfer or no layer
     /// "sky". Memory and cost: a copy of the volume.
     pub fn tetralight_relight_sky(volume: *mut tetralight_volume, sky: *const f32, error: *mut tetralight_error) -> tetralight_status;
@@ -623,17 +622,17 @@ extern "C" {
     /// Moves the sun: layer "sun" becomes the light that the probes transfer from a sun that shines
     /// along the unit vector `direction` (three floats), with `irradiance` (three floats, >= 0) on a
     /// surface that faces it. Of a mixed sun only the bounces: the caller adds the direct light. Its
-    /// occlusion is that of the old direction, and it loses its channel. The metadata records the change
-    /// as with `tetralight_relight_sky`. Returns TETRALIGHT_NOT_THERE if the volume holds no transfer,
-    /// or not exactly one sun in layer "sun". Memory and cost: a copy of the volume.
+    /// occlusion is that of the old direction, and it loses its channel. Adds the name of this function
+    /// to the metadata, as `tetralight_relight_sky` does. Returns TETRALIGHT_NOT_THERE if the volume
+    /// holds no transfer, or not exactly one sun in layer "sun". Memory and cost: a copy of the volume.
     pub fn tetralight_relight_sun(volume: *mut tetralight_volume, direction: *const f32, irradiance: *const f32, error: *mut tetralight_error) -> tetralight_status;
 
     /// Writes the volume with its present light to a file, which replaces an older one only as a
     /// whole; path "-" is stdout. Sections of the opened file that are not of the volume are left out.
-    /// Memory: 1 MiB, with which the written bytes are compared. Returns TETRALIGHT_UNSUPPORTED for
-    /// joined volumes: each of them can be saved. Windows does not replace a file while it is open, here
-    /// or in another program: the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was
-    /// opened from.
+    /// Memory: 1 MiB, to read the file back and compare it. Returns TETRALIGHT_UNSUPPORTED for joined
+    /// volumes: save each of them instead. Windows does not replace a file while it is open, here or in
+    /// another program: the call returns TETRALIGHT_UNAVAILABLE for the path that the volume was opened
+    /// from.
     pub fn tetralight_save(volume: *const tetralight_volume, path: *const c_char, error: *mut tetralight_error) -> tetralight_status;
 
     /// The light at one position (three floats), of the probes that no wall hides; a batch of one has
