@@ -43,7 +43,7 @@ class WalkReach {
     void walk_inside(uint32_t start, const Box<glm::dvec3>& region, size_t limit);
     void leave_hull_cell(uint32_t cell, const Box<glm::dvec3>& region);
 
-    const ProbeVolumeView& volume_;
+    ProbeVolumeView volume_;
     // The number of the last call, pass and walk that came to each cell.
     std::vector<uint32_t> listed_;
     std::vector<uint32_t> visited_;
