@@ -224,6 +224,7 @@ TEST(CheckLeaks, RefusesWhatCannotBeCompared) {
     changed.metadata = R"({"bounces":true})";
     EXPECT_EQ(field_of(changed, {}), "bounces");
     changed.irradiance.clear();
+    changed.compact.clear();
     EXPECT_EQ(field_of(changed, {}), "volume");
 }
 
