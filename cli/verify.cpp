@@ -88,6 +88,8 @@ struct Verify {
           settings(verify_settings(values)),
           common(values) {
         settings.thread_count = common.thread_count;
+        if (settings.probe_count == 0 && settings.place_count == 0)
+            refuse(values, "probes", "probes and places are both 0: there is nothing to compare");
     }
 
     Status run() const {
@@ -152,8 +154,9 @@ struct Verify {
                                  common.thread_count);
     }
 
-    /// With the path of the file that an error is about.
+    /// With the path of the file that an error is about, if it is not about a setting.
     [[nodiscard]] Error located(const Error& error) const {
+        if (error.field == "time_limit" || error.field == "probes") return error;
         const bool is_of_volume = error.field == "volume" || error.code == ErrorCode::Corrupt;
         return error.in(is_of_volume ? volume_path : scene_options.path);
     }

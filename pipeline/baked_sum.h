@@ -8,10 +8,12 @@
 
 namespace tetralight {
 
-/// A volume as it was baked, with all layers at weight 1: a copy if they have other weights now.
+/// A volume as it was baked, with all layers at weight 1 and its irradiance in floats: a copy if
+/// its layers have other weights now, or if its light is stored in halves alone.
 class BakedSum {
   public:
-    /// Keeps the view. Returns the errors of `recombine`.
+    /// Keeps the view. Returns the errors of `recombine`, and corrupt if the halves are not those
+    /// of all probes.
     [[nodiscard]] static Result<BakedSum> make(const ProbeVolumeView& volume);
 
     [[nodiscard]] ProbeVolumeView view() const { return copy_ ? copy_->view() : view_; }

@@ -37,7 +37,7 @@ Status check(const ProbeVolumeView& volume, const LeakSettings& settings) {
     if (settings.sample_count < 2) return refusal("samples", "there have to be two at least");
     if (!(settings.clearance >= 0.0f)) return refusal("clearance", "has to be 0 m or more");
     if (volume.positions.empty()) return refusal("volume", "the volume has no probes");
-    if (volume.irradiance.empty()) {
+    if (volume.irradiance.empty() && volume.compact.empty()) {
         return refusal("volume", "the volume holds no light (it was not baked)");
     }
     return Ok{};

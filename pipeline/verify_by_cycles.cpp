@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -21,8 +23,8 @@ CyclesJob cycles_job(const VerifySettings& settings, const CyclesProgram& progra
     job.bounces = report.bounces;
     job.seed = settings.seed;
     job.thread_count = settings.thread_count;
-    job.time_limit =
-        std::chrono::milliseconds(static_cast<int64_t>(1000.0 * settings.time_limit_seconds));
+    job.time_limit = std::chrono::milliseconds(
+        static_cast<int64_t>(std::ceil(1000.0 * settings.time_limit_seconds)));  // 0: no limit
     const double target = settings.effort.target_error;
     for (const VerifyProbe& probe : report.probes) {
         job.positions.push_back(probe.position);

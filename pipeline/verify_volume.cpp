@@ -31,9 +31,15 @@ Error volume_error(const std::string& reason) {
     return {ErrorCode::InvalidArgument, "volume", "", reason};
 }
 
+Status check_settings(const VerifySettings& settings) {
+    if (settings.probe_count > 0 || settings.place_count > 0) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "probes", "0",
+                 "probes and places are both 0: there is nothing to compare"};
+}
+
 Status check_volume(const ProbeVolumeView& volume) {
     if (volume.positions.empty()) return volume_error("the volume has no probes");
-    if (volume.irradiance.empty()) {
+    if (volume.irradiance.empty() && volume.compact.empty()) {
         return volume_error("the volume holds no light (it was not baked)");
     }
     if (was_relit(volume.metadata)) {
@@ -192,11 +198,23 @@ std::vector<Job> jobs_of(VerifyReport& report, uint64_t seed) {
     return jobs;
 }
 
-/// Removes positions without traced light.
-void remove_untraced(VerifyReport& report) {
+/// Removes positions without traced light. Returns invalid_argument if that leaves nothing of what
+/// was asked for.
+Status remove_untraced(VerifyReport& report, double time_limit_seconds) {
     const auto is_untraced = [](const auto& element) { return element.traced.sample_count == 0; };
-    report.untraced_count =
-        std::erase_if(report.probes, is_untraced) + std::erase_if(report.places, is_untraced);
+    const size_t probes = std::erase_if(report.probes, is_untraced);
+    const size_t places = std::erase_if(report.places, is_untraced);
+    report.untraced_count = probes + places;
+    const bool no_probe = probes > 0 && report.probes.empty();
+    const bool no_place = places > 0 && report.places.empty();
+    if (!no_probe && !no_place) return Ok{};
+    const bool is_nothing = report.probes.empty() && report.places.empty();
+    const std::string seconds = str_cat(time_limit_seconds);
+    return Error{ErrorCode::InvalidArgument, "time_limit", seconds,
+                 str_cat("the time limit of ", seconds, " s ended before any ",
+                         no_probe ? "probe" : "place", " was traced",
+                         is_nothing ? ": nothing was traced and nothing is compared"
+                                    : ": the volume cannot be judged")};
 }
 
 Status run_jobs(const PlainTracer& tracer, const VerifySettings& settings, std::vector<Job>& jobs,
@@ -229,6 +247,7 @@ Status run_jobs(const PlainTracer& tracer, const VerifySettings& settings, std::
 
 Result<VerifyReport> prepare_verify(const Scene& scene, const ProbeVolumeView& volume,
                                     const VerifySettings& settings) {
+    if (auto status = check_settings(settings); !status) return status.error();
     if (auto status = check_volume(volume); !status) return status.error();
     const auto recorded = recorded_settings(volume.metadata);
     if (!recorded) return recorded.error();
@@ -263,8 +282,7 @@ Status trace_report(const Scene& scene, const ProbeVolumeView& volume,
     report.referee = "path tracer";
     std::vector<Job> jobs = jobs_of(report, settings.seed);
     if (auto status = run_jobs(tracer, settings, jobs, callback); !status) return status;
-    remove_untraced(report);
-    return Ok{};
+    return remove_untraced(report, settings.time_limit_seconds);
 }
 
 void finish_verify(const VerifySettings& settings, VerifyReport& report) {

@@ -31,8 +31,8 @@ struct VerifySettings {
     double place_error_factor = 4.0;
     /// Most reflections of a path; empty: as many as the bake had.
     std::optional<uint32_t> bounces;
-    /// No position is begun after so many seconds; 0: no limit. With it, the result depends on the
-    /// speed of the machine.
+    /// No position is begun after so many seconds of tracing; 0: no limit. With it, the result
+    /// depends on the speed of the machine.
     double time_limit_seconds = 0.0;
     VerifyRules rules;
     VerifyLimits limits;
@@ -47,14 +47,19 @@ struct VerifySettings {
 /// inside geometry and those whose light an adjustment volume changes are left out. Places are
 /// those of `find_free_places`. A volume with layers is taken as it was baked, with all weights 1.
 ///
-/// Returns invalid_argument if the volume holds no light, or was relit; not_found if no probe and
+/// Light that is stored in halves alone is used as it is.
+///
+/// Returns invalid_argument if neither probes nor places are asked for, and if the volume holds no
+/// light or was relit; not_found if no probe and
 /// no place is left; and the errors of `recorded_settings` and `TraceScene::make_static`.
 [[nodiscard]] Result<VerifyReport> prepare_verify(const Scene& scene, const ProbeVolumeView& volume,
                                                   const VerifySettings& settings);
 
 /// Traces the light of all positions of a report, for lights, surfaces and bounces as the volume's
 /// metadata records them. Positions for which there was no time are removed. The same result for
-/// any number of threads. Returns cancelled if the callback returns false.
+/// any number of threads. Returns cancelled if the callback returns false, and invalid_argument
+/// with the field "time_limit" if there was time for no probe, or for no place, of those in the
+/// report.
 [[nodiscard]] Status trace_report(const Scene& scene, const ProbeVolumeView& volume,
                                   const VerifySettings& settings, VerifyReport& report,
                                   const BakeCallback& callback = {});

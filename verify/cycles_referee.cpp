@@ -2,6 +2,7 @@
 #include <tetralight/verify/cycles_referee.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -6,11 +6,12 @@
 
 namespace tetralight {
 
-/// Independent random numbers: PCG-XSH-RR (O'Neill 2014, "PCG: A Family of Simple Fast
+/// Random numbers: PCG-XSH-RR (O'Neill 2014, "PCG: A Family of Simple Fast
 /// Space-Efficient Statistically Good Algorithms for Random Number Generation").
 class Pcg {
   public:
-    /// Streams of different numbers are independent.
+    /// Streams of one seed are different, but not independent: their states follow from each other.
+    /// Independent ones need seeds that differ by a good mix (`batch_random`).
     Pcg(uint64_t seed, uint64_t stream) : increment_(2 * stream + 1) {
         next_bits();
         state_ += seed;
@@ -37,5 +38,18 @@ class Pcg {
     uint64_t state_ = 0;
     uint64_t increment_;
 };
+
+/// Mixes one more number into a key (splitmix64 of Steele et al. 2014).
+[[nodiscard]] inline uint64_t mixed_key(uint64_t key, uint64_t number) {
+    uint64_t z = (key ^ number) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/// The random numbers of one of the batches of a key: independent of those of its other batches.
+[[nodiscard]] inline Pcg batch_random(uint64_t key, uint64_t batch) {
+    return {mixed_key(key, batch), batch};
+}
 
 }  // namespace tetralight

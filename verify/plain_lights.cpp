@@ -125,7 +125,35 @@ PlainEmitters::Choice PlainEmitters::sample(glm::vec3 position, Pcg& random) con
     const glm::vec3 offset = point - position;
     const float distance = glm::length(offset);
     if (!(distance > 0.0f)) return {};
-    return {offset / distance, triangle.geometry, triangle.primitive};
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    const float area2 = glm::length(normal);
+    const float least_weight = std::min({1.0f - root, u.y * root, (1.0f - u.y) * root});
+    const float longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
+    return {.direction = offset / distance,
+            .point = point,
+            .edge_distance = least_weight * area2 / longest,
+            .normal = normal / area2,
+            .geometry = triangle.geometry,
+            .primitive = triangle.primitive};
+}
+
+bool PlainEmitters::is_chosen(const Choice& choice, glm::vec3 origin, const Surface& surface) {
+    if (surface.geometry != choice.geometry) return false;
+    if (surface.primitive == choice.primitive) return true;
+    const glm::vec3 front =
+        surface.is_from_behind ? -surface.geometric_normal : surface.geometric_normal;
+    if (!(glm::dot(front, choice.normal) > 0.0f)) return false;
+    // The error of a ray's ends, as `TraceScene` bounds it, and of its direction; once for the
+    // point and once for the hit. It grows along surfaces that the ray grazes.
+    float extent = 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        extent = std::max({extent, std::abs(origin[axis]), std::abs(choice.point[axis])});
+    const float rounding = 2.0f * std::max(surface.error_bound, extent * 0x1p-21f);
+    const float cosine = std::min(std::abs(glm::dot(front, choice.direction)),
+                                  std::abs(glm::dot(choice.normal, choice.direction)));
+    const float tolerance = rounding / std::max(cosine, 1e-3f);
+    return choice.edge_distance <= tolerance &&
+           std::abs(glm::dot(surface.position - choice.point, choice.direction)) <= tolerance;
 }
 
 float PlainEmitters::pdf(glm::vec3 origin, glm::vec3 direction, const Surface& surface) const {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tetralight/bake/rays/trace_scene.h>
@@ -56,12 +59,22 @@ class PlainEmitters {
 
     /// A direction from a position to a point on a triangle.
     struct Choice {
-        glm::vec3 direction{0.0f};  ///< unit vector
+        glm::vec3 direction{0.0f};  ///< unit vector; zero at the point itself
+        glm::vec3 point{0.0f};
+        /// Metres that the point is away from the edges of its triangle, at least.
+        float edge_distance = 0.0f;
+        glm::vec3 normal{0.0f};  ///< unit, on the front
         uint32_t geometry = 0;
         uint32_t primitive = 0;
     };
 
     [[nodiscard]] Choice sample(glm::vec3 position, Pcg& random) const;
+
+    /// True if the surface that the ray from `origin` hit is what was chosen: the same triangle, or
+    /// one of the same geometry that continues it where the point is so near to an edge that
+    /// rounding moves the hit across.
+    [[nodiscard]] static bool is_chosen(const Choice& choice, glm::vec3 origin,
+                                        const Surface& surface);
 
     /// Density per steradian with which `sample` finds a surface that a ray from `origin` hit.
     [[nodiscard]] float pdf(glm::vec3 origin, glm::vec3 direction, const Surface& surface) const;

@@ -138,7 +138,7 @@ PlainTracer::Found PlainTracer::find_emitter(glm::vec3 origin, glm::vec3 normal,
     const auto surface =
         traced_.intersect({origin, choice.direction}, TraceScene::Detail::LightOnly);
     if (!surface || surface->is_back_face) return {};
-    if (surface->geometry != choice.geometry || surface->primitive != choice.primitive) return {};
+    if (!PlainEmitters::is_chosen(choice, origin, *surface)) return {};
     const float pdf = emitters_.pdf(origin, choice.direction, *surface);
     return {choice.direction, surface->emission / (pdf + chance)};
 }

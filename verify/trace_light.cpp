@@ -14,18 +14,10 @@ constexpr uint64_t kFewestBatches = 16;
 /// Part of a bright channel that counts as the light of a dark one.
 constexpr double kLeastChannel = 0.01;
 
-/// Mixes one more number into a key (splitmix64 of Steele et al. 2014).
-uint64_t mixed(uint64_t key, uint64_t number) {
-    uint64_t z = (key ^ number) + 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 uint64_t key_of(uint64_t seed, const glm::dvec3& position) {
-    uint64_t key = mixed(seed, 0);
+    uint64_t key = mixed_key(seed, 0);
     for (int axis = 0; axis < 3; ++axis) {
-        key = mixed(key, std::bit_cast<uint64_t>(position[axis] + 0.0));  // −0 is 0
+        key = mixed_key(key, std::bit_cast<uint64_t>(position[axis] + 0.0));  // −0 is 0
     }
     return key;
 }
@@ -38,7 +30,7 @@ class Batches {
 
     void add(uint64_t count) {
         for (uint64_t i = 0; i < count; ++i) {
-            const RadianceShSum light = tracer_.trace_batch(position_, Pcg(key_, count_));
+            const RadianceShSum light = tracer_.trace_batch(position_, batch_random(key_, count_));
             ++count_;
             sum_ += light;
             const glm::dvec3 before = light.coefficients[0] - mean_;
@@ -104,7 +96,7 @@ TracedLight trace_light(const PlainTracer& tracer, const glm::dvec3& position,
     const uint64_t key = key_of(effort.seed, position);
     uint64_t count = batch_count(effort.sample_count);
     if (effort.sample_count == 0) {
-        Batches pilot(tracer, position, mixed(key, 1));
+        Batches pilot(tracer, position, mixed_key(key, 1));
         pilot.add(kPilotSampleCount / PlainTracer::kBatchSize);
         count = needed_batches(pilot.light(), effort);
     }

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/probes/recombine.h>
 #include "tests/support/probe_groups.h"
@@ -161,19 +164,66 @@ TEST(VerifyVolume, AVolumeWithLayersIsTakenAsItWasBaked) {
     EXPECT_FALSE(has_failed(verify(room.scene, room.volume), "max_mean_z"));
 }
 
+/// The callback keeps the only thread busy until the time is over.
 TEST(VerifyVolume, ATimeLimitLeavesPositionsOut) {
     const LitRoom room;
     VerifySettings settings = quick_settings();
+    settings.effort.sample_count = 1 << 16;
+    settings.place_count = 0;
+    settings.thread_count = 1;
+    settings.time_limit_seconds = 1.0;
+    const auto report =
+        verify_volume(room.scene, room.volume.view(), settings, [](const BakeProgress& progress) {
+            if (progress.probes_done > 0)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+            return true;
+        });
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->untraced_count + report->probes.size(), room.volume.positions.size());
+    EXPECT_GT(report->untraced_count, 0u);
+}
+
+TEST(VerifyVolume, FailsIfTheTimeLimitEndsBeforeAnythingIsTraced) {
+    const LitRoom room;
+    VerifySettings settings = quick_settings();
     settings.time_limit_seconds = 1e-9;
-    const VerifyReport report = verify(room.scene, room.volume, settings);
-    EXPECT_EQ(report.untraced_count + report.probes.size() + report.places.size(),
-              room.volume.positions.size() + 40u);
-    EXPECT_GT(report.untraced_count, 0u);
+    const auto report = verify_volume(room.scene, room.volume.view(), settings);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(report.error().field, "time_limit");
+    EXPECT_EQ(report.error().value, "1e-09");
+    EXPECT_NE(error_text(report.error()).find("nothing was traced"), std::string::npos);
+}
+
+TEST(VerifyVolume, RefusesToCompareNothing) {
+    VerifySettings settings;
+    settings.probe_count = settings.place_count = 0;
+    const auto report = verify_volume(Scene{}, ProbeVolumeView{}, settings);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(report.error().field, "probes");
+}
+
+/// Halves round each coefficient by 2^-11 of it at most, or by 2^-37 of the largest one.
+TEST(VerifyVolume, LightInHalvesIsLight) {
+    LitRoom room;
+    const auto floats = prepare_verify(room.scene, room.volume.view(), quick_settings());
+    room.volume.irradiance.clear();
+    const auto halves = prepare_verify(room.scene, room.volume.view(), quick_settings());
+    ASSERT_TRUE(floats);
+    ASSERT_TRUE(halves);
+    ASSERT_EQ(floats->probes.size(), halves->probes.size());
+    for (size_t i = 0; i < floats->probes.size(); ++i) {
+        const double expected = floats->probes[i].volume.y;
+        EXPECT_NEAR(halves->probes[i].volume.y, expected, 0x1p-11 * expected);
+    }
+    EXPECT_GT(halves->probes[0].volume.y, 0.0);
 }
 
 TEST(VerifyVolume, RefusesVolumesWithoutLight) {
     LitRoom room;
     room.volume.irradiance.clear();
+    room.volume.compact.clear();
     const auto report = verify_volume(room.scene, room.volume.view(), {});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().field, "volume");

@@ -7,12 +7,12 @@
 #include <tetralight/verify/html.h>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
 #include <string>
 #include <vector>
+#include "tests/support/blender.h"
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -82,10 +82,6 @@ std::string room_gltf() {
     return gltf.dump();
 }
 
-bool has_blender() {
-    return std::system("blender --version > /dev/null 2>&1") == 0;
-}
-
 CyclesJob job_at(const glm::dvec3& position, std::string scene_path) {
     CyclesJob job;
     job.scene_path = std::move(scene_path);
@@ -97,7 +93,7 @@ CyclesJob job_at(const glm::dvec3& position, std::string scene_path) {
 
 /// In a closed room of equal surfaces all radiance is emission / (1 − albedo).
 TEST(CyclesReferee, LightsAFurnace) {
-    if (!has_blender()) GTEST_SKIP() << "Blender is not installed";
+    if (!test::has_blender()) GTEST_SKIP() << "Blender is not installed";
     const TempFolder folder;
     Scene scene;
     const auto result = trace_by_cycles(
@@ -116,7 +112,7 @@ TEST(CyclesReferee, LightsAFurnace) {
 }
 
 TEST(CyclesReferee, SaysWhatBlenderDoesNotImport) {
-    if (!has_blender()) GTEST_SKIP() << "Blender is not installed";
+    if (!test::has_blender()) GTEST_SKIP() << "Blender is not installed";
     const TempFolder folder;
     const auto result =
         trace_by_cycles(Scene{}, {}, job_at({0, 0, 0}, folder.write("bad.gltf", "{}")));

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <tetralight/verify/trace_light.h>
 #include "tests/support/scenes.h"
@@ -97,6 +99,55 @@ TEST(PlainTracer, ASmallLampIsFound) {
     test::add_ceiling(scene, lamp, 0.005f, 3.0f);
     // Radiance times solid angle, seen from straight below.
     expect_light(light_at(scene, {0.0, 0.0, 0.0}), 0.25 * 1000.0 * 0.0001 / 9.0);
+}
+
+/// A square lamp of 1 m², 1000 m from the center of the scene, in strips along x.
+Scene far_lamp(uint32_t strips) {
+    Scene scene;
+    Mesh lamp;
+    const float width = 1.0f / static_cast<float>(strips);
+    for (uint32_t i = 0; i < strips; ++i) {
+        const float x = 1000.0f + static_cast<float>(i) * width;
+        test::append_quad(lamp, {x, 2.0f, 0.0f}, {width, 0, 0}, {0, 0, 1});
+    }
+    test::add_mesh(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(5.0f)), std::move(lamp));
+    test::add_box(scene, test::diffuse(glm::vec3(0.0f)), test::Facing::Outward, {-1001, -1, 0},
+                  {-1000, 5, 1});
+    return scene;
+}
+
+/// Strips are as wide as floats are apart at 1000 m: rays to most points hit a strip beside them.
+/// The closed form is that of a plane whose center is straight above: the solid angle of a square
+/// of side 2a at distance d, 4 asin(a² / (a² + d²)).
+TEST(PlainTracer, ALampInStripsAsNarrowAsRoundingHasAllOfItsLight) {
+    const double expected = 0.25 * 5.0 * 4.0 * std::asin(0.25 / (0.25 + 1.0));
+    for (const uint32_t strips : {1u, 1u << 13}) {
+        const TracedLight light = light_at(far_lamp(strips), {1000.5, 1.0, 0.5});
+        EXPECT_GT(light.mean.x, 0.0) << strips;
+        expect_light(light, expected);
+    }
+}
+
+/// Two lamps back to back at the same place: each side shows one.
+TEST(PlainTracer, LampsBackToBackShineOnce) {
+    Scene scene;
+    Mesh lamps;
+    test::append_quad(lamps, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+    test::append_quad(lamps, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2});
+    test::add_mesh(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(5.0f)), std::move(lamps));
+    const auto traced = TraceScene::make_static(scene);
+    ASSERT_TRUE(traced);
+    const PlainEmitters emitters(scene, *traced);
+    const glm::vec3 eye = traced->render_from_world({0.0, 1.0, 0.0});
+    Pcg random(5, 6);
+    int chosen = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const auto choice = emitters.sample(eye, random);
+        const auto surface = traced->intersect({eye, choice.direction});
+        if (surface) chosen += PlainEmitters::is_chosen(choice, eye, *surface) ? 1 : 0;
+    }
+    // Half of all points are on the side that is hit; five standard deviations.
+    EXPECT_NEAR(chosen, 500, 5 * 16);
 }
 
 /// A half-transparent surface passes half of the light of a point light.
