@@ -135,10 +135,38 @@ class Relight(unittest.TestCase):
             "sun_irradiance": {"sun_direction": (0, -1, 0)},
             "sun_direction": {"sun_direction": (0, -1), "sun_irradiance": (1, 1, 1)},
             "sun_direction: expected a direction": {"sun_direction": (0, 0, 0), "sun_irradiance": (1, 1, 1)},
-            "irradiance.1. is negative": {"sun_direction": (0, -1, 0), "sun_irradiance": (1, -1, 1)},
+            r"sun_irradiance: .*\[1, -1, 1\]": {"sun_direction": (0, -1, 0), "sun_irradiance": (1, -1, 1)},
         }.items():
             with self.assertRaisesRegex(tetralight.BadValue, name):
                 volume.relight(**light)
+
+    def assert_neither_changes(self, volume, error, **light):
+        before, metadata = np.array(volume.irradiance), volume.metadata
+        positions = volume.positions[:10]
+        answers = volume.query(positions).sh
+        with self.assertRaises(error):
+            volume.relight(**light)
+        np.testing.assert_array_equal(volume.irradiance, before)
+        np.testing.assert_array_equal(volume.query(positions).sh, answers)
+        self.assertEqual(volume.metadata, metadata)
+
+    def test_changes_sky_and_sun_or_neither(self):
+        volume = self.open()
+        for irradiance in ((1, -1, 1), (1, 1), "a", (1, 1, np.nan), (1e31, 0, 0)):
+            self.assert_neither_changes(
+                volume, tetralight.BadValue, sky=5, sun_direction=(0, -1, 0), sun_irradiance=irradiance
+            )
+        for sky in ("a", (1, 2), np.inf, 1e31):
+            self.assert_neither_changes(
+                volume, tetralight.BadValue, sky=sky, sun_direction=(0, -1, 0), sun_irradiance=(1, 1, 1)
+            )
+
+    def test_changes_no_sky_where_the_sun_cannot_move(self):
+        volume = tetralight.open(baked("bake", ".probes", "--samples", "8", "--layers", "sky,transfer"))
+        self.assertEqual((volume.can_relight_sky, volume.can_relight_sun), (True, False))
+        sun = {"sun_direction": (0, -1, 0), "sun_irradiance": (1, 1, 1)}
+        self.assert_neither_changes(volume, tetralight.NotThere, sky=5, **sun)
+        volume.relight(sky=5)
 
     def test_takes_directions_of_any_length(self):
         volume = self.open()

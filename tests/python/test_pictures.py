@@ -46,7 +46,7 @@ class Png(unittest.TestCase):
         tetralight.write_png(path, np.zeros((2, 3, 3), np.uint8))
         with open(path, "rb") as file:
             self.assertEqual(read_png(file.read()).shape, (2, 3, 3))
-        with self.assertRaisesRegex(tetralight.Unavailable, "no_such_folder"):
+        with self.assertRaisesRegex(tetralight.NotFound, "no_such_folder"):
             tetralight.write_png(temporary_path("no_such_folder/a.png"), np.zeros((2, 3, 3), np.uint8))
 
 

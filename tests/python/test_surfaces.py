@@ -61,6 +61,18 @@ class Lightmaps(unittest.TestCase):
         np.testing.assert_array_equal(again.irradiance, self.lightmaps.irradiance)
 
 
+    def test_places_that_are_not_finite_are_named(self):
+        uv = np.full((2, 3, 2), 0.5)
+        uv[1, 2, 0] = np.nan
+        with self.assertRaisesRegex(tetralight.BadValue, r"uv_page\[1, 2\]: .*\[nan, 0.5\]"):
+            self.lightmaps.sample(0, uv)
+        with self.assertRaisesRegex(tetralight.BadValue, r"normals: .*nan"):
+            self.lightmaps.sample(0, (0.5, 0.5), (0, 1, 0), (0, np.nan, 1))
+        for pages in (0.5, "a", None, -1):
+            with self.assertRaisesRegex(tetralight.BadValue, "pages"):
+                self.lightmaps.sample(pages, (0.5, 0.5))
+
+
 class Reflections(unittest.TestCase):
     def setUp(self):
         path = baked("reflect", ".ktx2", "--samples", "1", "--cube-size", "16")
@@ -79,6 +91,17 @@ class Reflections(unittest.TestCase):
         self.assertEqual(len(probes), self.reflections.probe_count)
         axes = probes["axes"].astype(float)
         np.testing.assert_allclose(axes @ axes.transpose(0, 2, 1), np.tile(np.eye(3), (len(axes), 1, 1)), 0, 1e-5)
+
+    def test_refuses_wrong_arguments(self):
+        up = (0, 1, 0)
+        for name, call in {
+            "level": lambda: self.reflections.texels(0.5),
+            r"positions\[1\]": lambda: self.reflections.sample([up, (0, np.inf, 0)], [up, up]),
+            "directions": lambda: self.reflections.sample(up, (0, 0, np.nan)),
+            "roughness: .*1.5": lambda: self.reflections.sample([up, up], [up, up], (1, 1.5)),
+        }.items():
+            with self.subTest(name), self.assertRaisesRegex(tetralight.BadValue, name):
+                call()
 
     def test_samples_of_a_constant_sky_are_its_radiance(self):
         """The courtyard has no reflection probe: its only cube is the sky, which is constant."""

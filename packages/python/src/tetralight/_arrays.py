@@ -7,6 +7,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from tetralight._arguments import LARGEST_FLOAT, finite_numbers, numbers, refused, wrong_shape
 from tetralight.errors import BadValue
 
 FloatArray = np.ndarray[Any, np.dtype[np.float32]]
@@ -50,39 +51,45 @@ def shown(shape: Sequence[int | None]) -> str:
     return "(" + ", ".join("…" if n is None else str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
+def floats(array: AnyArray, dtype: Any) -> AnyArray:
+    """Numbers that are too large for the type become infinite."""
+    with np.errstate(over="ignore"):
+        return np.asarray(array, dtype)
+
+
 def vectors(name: str, values: Any, size: int = 3, dtype: Any = np.float32) -> AnyArray:
     """Numbers of the shape (…, size). Copies what has another type or has gaps inside a vector."""
-    try:
-        array = np.asarray(values)
-    except ValueError as reason:  # rows of different lengths
-        raise BadValue(f"{name}: expected the shape {shown((None, size))}: {reason}") from None
-    if array.dtype.kind not in "fiu":
-        raise BadValue(f"{name}: expected numbers, given {array.dtype}")
+    array = numbers(name, values, f"numbers of the shape {shown((None, size))}")
     if array.ndim == 0 or array.shape[-1] != size:
-        raise BadValue(f"{name}: expected the shape {shown((None, size))}, given {array.shape}")
-    array = np.asarray(array, dtype)
+        raise wrong_shape(name, shown((None, size)), array.shape)
+    if array.dtype != dtype:
+        array = floats(array, dtype)
     item = array.dtype.itemsize
     if array.strides[-1] != item or not array.flags.aligned:
         array = np.ascontiguousarray(array)
     return array
 
 
-def three(name: str, values: Any) -> FloatArray:
-    """One vector."""
-    array = np.array(vectors(name, values))
-    if array.shape != (3,):
-        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
-    return array
+def check_finite(name: str, rows: AnyArray) -> None:
+    """Names the first row that is not finite."""
+    is_finite = np.isfinite(rows).all(-1)
+    if not is_finite.all():
+        index = np.unravel_index(int(np.argmin(is_finite)), is_finite.shape)
+        where = f"[{', '.join(map(str, index))}]" if index else ""
+        raise refused(f"{name}{where}", "finite numbers", rows[index].tolist())
+
+
+def three(name: str, values: Any, lowest: float = -LARGEST_FLOAT, highest: float = LARGEST_FLOAT) -> FloatArray:
+    """One vector, finite."""
+    return finite_numbers(name, values, (3,), lowest, highest).astype(np.float32)
 
 
 def unit_vector(name: str, values: Any) -> FloatArray:
     """One vector, made as long as 1."""
-    array = np.array(vectors(name, values, dtype=np.float64))
-    if array.shape != (3,):
-        raise BadValue(f"{name}: expected the shape (3,), given {array.shape}")
-    largest = float(np.abs(array).max())
+    array = np.array(numbers(name, values, "a direction"), np.float64)
+    largest = float(np.abs(array).max()) if array.shape == (3,) else 0.0
     if not 0.0 < largest < math.inf:
-        raise BadValue(f"{name}: expected a direction, given {array.tolist()}")
+        raise refused(name, "a direction, three numbers", values)
     array /= largest
     unit: FloatArray = (array / np.linalg.norm(array)).astype(np.float32)
     return unit
@@ -90,15 +97,14 @@ def unit_vector(name: str, values: Any) -> FloatArray:
 
 def each(name: str, values: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
     """One number for each position, or one for all of them, without gaps."""
-    array = np.asarray(values)
     kind = np.dtype(dtype)
-    if array.dtype.kind not in ("fiu" if kind.kind == "f" else "iu"):
-        raise BadValue(f"{name}: expected {kind}, given {array.dtype}")
+    array = numbers(name, values, str(kind), "fiu" if kind.kind == "f" else "iu")
     if array.shape not in ((), shape):
-        raise BadValue(f"{name}: expected the shape {shape}, given {array.shape}")
+        raise wrong_shape(name, shape, array.shape)
     if kind.kind == "u" and array.size and (array.min() < 0 or array.max() > np.iinfo(kind).max):
-        raise BadValue(f"{name}: expected numbers from 0 to {np.iinfo(kind).max}")
-    return np.ascontiguousarray(np.broadcast_to(array, shape), kind)
+        wrong = array[(array < 0) | (array > np.iinfo(kind).max)] if array.ndim else array
+        raise refused(name, f"numbers from 0 to {np.iinfo(kind).max}", wrong.flat[0].item())
+    return np.ascontiguousarray(np.broadcast_to(floats(array, kind), shape))
 
 
 def output(name: str, array: Any, shape: tuple[int, ...], dtype: Any) -> AnyArray:
@@ -109,7 +115,7 @@ def output(name: str, array: Any, shape: tuple[int, ...], dtype: Any) -> AnyArra
     if array.dtype != kind:
         raise BadValue(f"{name}: expected {kind}, given {array.dtype}")
     if array.shape != shape:
-        raise BadValue(f"{name}: expected the shape {shape}, given {array.shape}")
+        raise wrong_shape(name, shape, array.shape)
     if not array.flags.writeable:
         raise BadValue(f"{name}: expected an array that can be written, given a read-only one")
     return array

@@ -9,6 +9,7 @@ import time
 import urllib.parse
 from typing import Any, BinaryIO, Union
 
+from tetralight._arguments import number
 from tetralight._settings import bad_value
 from tetralight.errors import BadValue, Corrupt, Error, NotFound, Unavailable
 
@@ -17,6 +18,7 @@ JSON = "application/json"
 BYTES = "application/octet-stream"
 
 MOST_SECONDS_BETWEEN_TRIES = 2.0
+MOST_SECONDS = 1e9  # sockets accept no more
 _BAD_VALUE = (400, 409, 412, 413, 422)
 _UNAVAILABLE = (408, 429, 502, 503, 504, 507)
 
@@ -30,11 +32,14 @@ class Service:
         self._scheme, self._host, self._port = parts.scheme, parts.hostname or "", parts.port
         self._prefix = parts.path.rstrip("/")
         self._headers = {}
+        if not isinstance(token, (str, type(None))):
+            raise BadValue("token: expected a text", "invalid_argument")
         if token:
             if not (token.isascii() and token.isprintable() and " " not in token):
                 raise BadValue("token: it has characters that no token has", "invalid_argument")
             self._headers["Authorization"] = "Bearer " + token
-        self.timeout, self.retry_seconds = timeout, retry_seconds
+        self.timeout = number("timeout", timeout, 1e-3, MOST_SECONDS, "seconds > 0")
+        self.retry_seconds = number("retry_seconds", retry_seconds, 0, MOST_SECONDS, "seconds >= 0")
 
     def get(self, path: str) -> dict[str, Any]:
         return self.json("GET", path)
@@ -123,6 +128,9 @@ class Service:
 
 
 def quoted(name: str) -> str:
+    """A part of an address: a kind, an id or a name."""
+    if not isinstance(name, str) or not name:
+        raise bad_value("name", name, "is not an id or a name")
     return urllib.parse.quote(name, safe="")
 
 
@@ -142,6 +150,8 @@ def _text(reason: Exception) -> str:
 
 def _checked(url: str) -> urllib.parse.SplitResult:
     what = "is not an address such as http://127.0.0.1:8080"
+    if not isinstance(url, str):
+        raise bad_value("url", url, what)
     try:
         parts = urllib.parse.urlsplit(url)
         parts.port  # raises ValueError if it is not a number

@@ -13,6 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Callable, Union
 
+from tetralight._arguments import path_text
 from tetralight.errors import BadValue, Cancelled, Corrupt, Error, NotFound, OutOfMemory, Unavailable, Unsupported
 from tetralight._settings import json_value
 
@@ -46,7 +47,7 @@ def error_of(answer: dict[str, Any]) -> Error:
 
 def find_command(command: StrPath | None = None) -> str:
     """The path of the command: `command`, $TETRALIGHT_COMMAND, or `tetralight` of PATH."""
-    asked = os.fspath(command) if command is not None else os.environ.get("TETRALIGHT_COMMAND") or "tetralight"
+    asked = path_text("command", command) if command is not None else os.environ.get("TETRALIGHT_COMMAND") or "tetralight"
     found = shutil.which(asked)
     if found is None:
         error = NotFound(f'the command "{asked}" is missing or not a program: install Tetralight, or give its path '

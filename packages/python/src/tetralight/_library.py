@@ -11,6 +11,7 @@ from typing import Any, TypeVar, Union
 
 from tetralight import _declarations as c
 from tetralight import errors
+from tetralight._arguments import path_text
 
 NAME = "libtetralight.so.0"
 HIGHWAY = "libhwy.so.1"
@@ -79,7 +80,15 @@ def call(function: Any, *arguments: Any) -> None:
         raise kind(error.message.decode("utf-8", "replace"), code)
 
 
-class Handle:
+class NotCopied:
+    """A copy or a pickle would share what the library has opened, or free it twice."""
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        name = type(self).__name__
+        raise TypeError(f"{name}: cannot be copied or pickled: open the file again")
+
+
+class Handle(NotCopied):
     """What a function of the library has opened; freed with the last reference to it, so that arrays
     that show its memory and calls in other threads keep it open."""
 
@@ -94,7 +103,7 @@ class Handle:
 AnyOpened = TypeVar("AnyOpened", bound="Opened")
 
 
-class Opened:
+class Opened(NotCopied):
     """What is open until `close` or the end of a `with` statement."""
 
     _closed = "closed"  # the end of the message of `Closed`
@@ -133,14 +142,6 @@ def opened(function: Any, free: Any, *arguments: Any) -> Handle:
     return Handle(pointer.value, free)
 
 
-def path_bytes(path: str | os.PathLike[str]) -> bytes:
-    """A path as the library reads it: C would end it at a zero byte."""
-    name = os.fsencode(path)
-    if b"\0" in name:
-        raise errors.BadValue(f"path: expected a path without zero bytes, given {os.fspath(path)!r}")
-    return name
-
-
 Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
 
 
@@ -149,5 +150,5 @@ def opened_file(open_path: Any, open_memory: Any, free: Any, source: Source) -> 
     if isinstance(source, (bytes, bytearray, memoryview)):
         content = bytes(source)
         return opened(open_memory, free, content, len(content)), "memory"
-    name = os.fspath(source)
-    return opened(open_path, free, path_bytes(name)), name
+    name = path_text("source", source, "a path or bytes")
+    return opened(open_path, free, os.fsencode(name)), name

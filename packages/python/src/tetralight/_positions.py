@@ -9,6 +9,7 @@ from typing import Any, Mapping
 import numpy
 import numpy.typing
 
+from tetralight._arguments import numbers
 from tetralight._settings import bad_value
 from tetralight.errors import Unavailable
 
@@ -22,12 +23,7 @@ ROWS_AT_ONCE = 65536
 
 def checked_positions(name: str, positions: Positions) -> numpy.ndarray[Any, Any]:
     """An array of shape (N, 3) of finite numbers, without a copy where it is one already."""
-    try:
-        array = numpy.asarray(positions)
-    except ValueError as reason:
-        raise bad_value(name, type(positions).__name__, f"is not an array of shape (N, 3): {reason}") from reason
-    if array.dtype.kind not in "fiu":
-        raise bad_value(name, str(array.dtype), "is not a type of real numbers")
+    array = numbers(name, positions, "real numbers of the shape (N, 3)")
     if array.ndim != 2 or array.shape[1] != 3:
         raise bad_value(name, array.shape, "is not a shape (N, 3)")
     if len(array) > MOST_POSITIONS:

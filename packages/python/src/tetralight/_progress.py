@@ -6,6 +6,8 @@ import sys
 import time
 from typing import Callable, Optional, TextIO, Union
 
+from tetralight._arguments import refused
+
 #: Called several times a second with the finished fraction, or None while it is not known, and one line of text. What
 #: it raises stops the work.
 Callback = Callable[[Optional[float], str], object]
@@ -67,6 +69,8 @@ def reporter(progress: Progress) -> Bar | Silence | _Caller:
     """What shows the progress of one piece of work."""
     if callable(progress):
         return _Caller(progress)
+    if progress is not None and not isinstance(progress, bool):
+        raise refused("progress", "a function, True, False or None", progress)
     if progress is None:
         progress = "ipykernel" in sys.modules or bool(sys.stderr and sys.stderr.isatty())
     return Bar() if progress else Silence()

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tetralight import _arrays
+from tetralight import _arguments, _arrays
 from tetralight import _declarations as c
+from tetralight._arguments import choice, refused, wrong_shape
 from tetralight._arrays import AnyArray
 from tetralight._library import call, library
 from tetralight._threads import parallel_for, thread_count
@@ -19,12 +20,6 @@ TASK_SIZE = 32768
 
 OUTSIDE = {"extrapolate": c.EXTRAPOLATE, "clamp": c.CLAMP, "ambient": c.AMBIENT}
 WALLS = {"hide": c.HIDE_PROBES, "ignore": c.IGNORE_WALLS}
-
-
-def choice(name: str, value: str, choices: dict[str, Any]) -> Any:
-    if value not in choices:
-        raise BadValue(f"{name}: expected {', '.join(map(repr, choices))}, given {value!r}")
-    return choices[value]
 
 
 class Options(NamedTuple):
@@ -69,12 +64,11 @@ def cells_of(shape: tuple[int, ...], hints: Any, memory: AnyArray | None) -> Any
     return cells
 
 
-def check_receivers(radii: AnyArray | None, normal_offset: float) -> None:
+def check_radii(radii: AnyArray) -> None:
     """What the library would find only when it comes to the position."""
-    if radii is not None and not (np.isfinite(radii).all() and (radii >= 0).all()):
-        raise BadValue(f"radii: expected finite numbers >= 0, given {radii[~(radii >= 0) | ~np.isfinite(radii)][0]}")
-    if not 0 <= normal_offset < np.inf:
-        raise BadValue(f"normal_offset: expected a finite number >= 0, given {normal_offset}")
+    is_wrong = ~((radii >= 0) & np.isfinite(radii))
+    if is_wrong.any():
+        raise refused("radii", "finite numbers >= 0", float(radii[is_wrong][0]))
 
 
 class Task:
@@ -83,7 +77,8 @@ class Task:
     def __init__(self, volume: int, positions: AnyArray, light: Light, options: Options) -> None:
         shape = positions.shape[:-1]
         radii = optional("radii", options.radii, shape, np.float32)
-        check_receivers(radii, options.normal_offset)
+        if radii is not None:
+            check_radii(radii)
         self.volume = volume
         self.count = light.cells.size
         arrays = {
@@ -99,9 +94,11 @@ class Task:
         self.batch = c.Batch(
             sh_format=list(FORMATS).index(light.format),
             outside=choice("outside", options.outside, OUTSIDE),
-            fade_distance=options.fade_distance,
+            fade_distance=_arguments.number("fade_distance", options.fade_distance),
             walls=choice("walls", options.walls, WALLS),
-            normal_offset=options.normal_offset,
+            normal_offset=_arguments.number(
+                "normal_offset", options.normal_offset, 0, expected="a finite number >= 0"
+            ),
         )
 
     def answer(self, begin: int, end: int) -> c.Report:
@@ -131,7 +128,7 @@ def surface_normals(normals: Any, shape: tuple[int, ...]) -> AnyArray | None:
         return None
     array = _arrays.vectors("normals", normals)
     if array.shape not in ((3,), shape + (3,)):
-        raise BadValue(f"normals: expected the shape {shape + (3,)} or (3,), given {array.shape}")
+        raise wrong_shape("normals", f"{shape + (3,)} or (3,)", array.shape)
     return np.ascontiguousarray(np.broadcast_to(array, shape + (3,))).reshape(-1, 3)
 
 

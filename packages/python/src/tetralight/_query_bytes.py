@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy
 
+from tetralight._arguments import choice, number, refused
 from tetralight._settings import bad_value
 from tetralight.errors import Error
 
+POSITIVE = "a finite number > 0"
 HEADER = struct.Struct("<4sIBBBBf")
 OCCLUSION, CELLS, IGNORE_WALLS = 1, 2, 4
 # The copies of the light that the library reads, too.
@@ -25,12 +27,6 @@ FORMATS: dict[str, tuple[int, tuple[int, ...], str]] = {
 LOCATION = numpy.dtype([("cell", "<u4"), ("ambient", "<f4"), ("weights", "<f4", 4)])
 
 
-def _choice(name: str, value: str, choices: dict[str, Any]) -> Any:
-    if value not in choices:
-        raise bad_value(name, value, "is not one of " + ", ".join(choices))
-    return choices[value]
-
-
 def write_request(
     rows: numpy.ndarray[Any, Any], first: int, format: str, outside: str, fade: float | None, walls: str
 ) -> bytes:
@@ -41,11 +37,11 @@ def write_request(
     if not is_finite.all():
         row = int(numpy.argmin(is_finite))
         raise bad_value(f"positions[{first + row}]", rows[row].tolist(), "is too large for floats")
-    number, _, _ = _choice("format", format, FORMATS)
-    wants = OCCLUSION | CELLS | _choice("walls", walls, WALLS)
-    if fade is not None and not 0 < fade <= numpy.finfo(numpy.float32).max:
-        raise bad_value("fade_distance", fade, "is not positive and finite")
-    header = HEADER.pack(b"TLQ1", len(rows), number, wants, _choice("outside", outside, OUTSIDE), HALF_PRECISION,
+    form, _, _ = choice("format", format, FORMATS)
+    wants = OCCLUSION | CELLS | choice("walls", walls, WALLS)
+    if fade is not None and number("fade_distance", fade, 0, expected=POSITIVE) == 0:
+        raise refused("fade_distance", POSITIVE, fade)
+    header = HEADER.pack(b"TLQ1", len(rows), form, wants, choice("outside", outside, OUTSIDE), HALF_PRECISION,
                          fade or 0.0)
     return header + floats.tobytes()
 

@@ -9,6 +9,7 @@ from typing import Any, Iterable
 
 import numpy
 
+from tetralight._arguments import shown
 from tetralight.errors import BadValue
 
 
@@ -20,7 +21,7 @@ def json_value(name: str, value: Any) -> Any:
     except ValueError as reason:
         raise bad_value(name, plain, "is not a finite number") from reason
     except TypeError as reason:
-        raise TypeError(f"{name}: a value of the type {type(value).__name__} is not a setting") from reason
+        raise bad_value(name, value, "is not a number, a text, a path, an array or a dictionary") from reason
     return plain
 
 
@@ -40,8 +41,7 @@ def _plain(value: Any) -> Any:
 
 def bad_value(name: str, value: Any, what: str) -> BadValue:
     """The error of an argument."""
-    text = repr(value)
-    text = text if len(text) <= 80 else text[:77] + "..."
+    text = shown(value)
     error = BadValue(f"{name}: {text} {what}", "invalid_argument")
     error.field, error.value = name, text
     return error

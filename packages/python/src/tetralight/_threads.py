@@ -5,18 +5,19 @@ from __future__ import annotations
 import itertools
 import os
 import threading
+import time
 from typing import Callable
 
-from tetralight.errors import BadValue
+from tetralight._arguments import integer
+
+SECONDS_BETWEEN_LOOKS = 0.0001
 
 
 def thread_count(threads: int | None) -> int:
     """What the caller chose, or the processors that this process may use."""
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    if threads < 1:
-        raise BadValue(f"threads: expected at least 1, given {threads}")
-    return threads
+    return integer("threads", threads, 1)
 
 
 def parallel_for(count: int, task: Callable[[int], None], threads: int) -> None:
@@ -27,36 +28,41 @@ def parallel_for(count: int, task: Callable[[int], None], threads: int) -> None:
         return
     numbers = itertools.count()  # next() is one step of the interpreter: no number comes twice
     failures: list[BaseException] = []
+    working: set[object] = set()
 
     def work() -> None:
+        worker = object()
         try:
+            working.add(worker)
             for i in numbers:
                 if i >= count or failures:
                     return
                 task(i)
         except BaseException as failure:
             failures.append(failure)
+        finally:
+            working.discard(worker)
 
-    helpers = started(work, min(threads, count) - 1)
-    work()
-    for helper in helpers:
-        while helper.is_alive():
-            try:
-                helper.join()
-            except BaseException as failure:  # an interrupt: the memory is in use until all have ended
-                failures.append(failure)
+    is_begun = False
+    while True:  # until no thread works: the memory is in use until then, also after an interrupt
+        try:
+            if not is_begun:
+                is_begun = True
+                start(work, min(threads, count) - 1)
+                work()
+            while working:
+                time.sleep(SECONDS_BETWEEN_LOOKS)
+            break
+        except BaseException as failure:
+            failures.append(failure)
     if failures:
         raise failures[0]
 
 
-def started(work: Callable[[], None], count: int) -> list[threading.Thread]:
-    """As many threads as the system gives."""
-    helpers: list[threading.Thread] = []
+def start(work: Callable[[], None], count: int) -> None:
+    """As many threads as the system gives. One that begins after the work finds no task, or the failure."""
     for _ in range(count):
-        helper = threading.Thread(target=work, daemon=True)
         try:
-            helper.start()
+            threading.Thread(target=work, daemon=True).start()
         except RuntimeError:
             break
-        helpers.append(helper)
-    return helpers

@@ -18,11 +18,12 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
 import numpy
 
 import tetralight
+from tetralight._arguments import choice, number, numbers, path_text, wrong_shape
 from tetralight._http import BYTES, Service, quoted
 from tetralight._positions import Positions, checked_positions, write_groups
 from tetralight._progress import Progress, counted, reporter
 from tetralight._query_bytes import read_answer, write_request
-from tetralight._settings import bad_value, check_names, json_value
+from tetralight._settings import check_names, json_value
 from tetralight.errors import Cancelled, Corrupt, Error, Unavailable
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 Source = Union["os.PathLike[str]", bytes]
 
-KINDS = ("scenes", "skies", "groups", "volumes", "lightmaps", "reflections")
+KINDS = dict.fromkeys(("scenes", "skies", "groups", "volumes", "lightmaps", "reflections"))
 POSITIONS_AT_ONCE = 250_000
 MOST_SECONDS_BETWEEN_LOOKS = 0.5
 
@@ -77,14 +78,13 @@ class Client:
     def upload(self, kind: str, source: Source, name: str | None = None) -> str:
         """Stores a file or bytes as one of the "scenes", "skies", "groups", "volumes", "lightmaps" or "reflections":
         its id. `name` moves from the file that had it."""
-        if kind not in KINDS:
-            raise bad_value("kind", kind, "is not one of " + ", ".join(KINDS))
+        choice("kind", kind, KINDS)
         path = f"/v1/{kind}" + (f"?name={quoted(name)}" if name else "")
         # The same bytes are one file: an upload that is repeated changes nothing.
         if isinstance(source, (bytes, bytearray, memoryview)):
             return str(self._service.json("POST", path, bytes(source), BYTES, True)["id"])
         try:
-            with open(source, "rb") as file:
+            with open(path_text("source", source, "a path or bytes"), "rb") as file:
                 return str(self._service.json("POST", path, file, BYTES, True)["id"])
         except OSError as reason:
             if isinstance(reason, Error):
@@ -143,12 +143,9 @@ class Client:
     ) -> Light:
         """The light at positions (..., 3) in a stored volume, computed by the service. As `Volume.query`; without
         `fade_distance` ambient light fades over the service's default."""
-        try:
-            array = numpy.asarray(positions)
-        except ValueError as reason:  # rows of different lengths
-            raise bad_value("positions", type(positions).__name__, f"is not an array (..., 3): {reason}") from None
+        array = numbers("positions", positions, "numbers of the shape (…, 3)")
         if array.ndim < 1 or array.shape[-1] != 3:
-            raise bad_value("positions", array.shape, "is not a shape (..., 3)")
+            raise wrong_shape("positions", "(…, 3)", array.shape)
         rows = checked_positions("positions", array.reshape(-1, 3))
         path = f"/v1/volumes/{quoted(volume)}/query"
         if len(rows) > POSITIONS_AT_ONCE:  # a name may move between two requests
@@ -215,7 +212,7 @@ class Bake:
     def wait(self, progress: Progress = None, timeout: float | None = None) -> Volume:
         """Waits for the bake, and opens its volume. KeyboardInterrupt ends the wait, not the bake: see `cancel`.
         Raises TimeoutError after `timeout` seconds."""
-        end = None if timeout is None else time.monotonic() + timeout
+        end = None if timeout is None else time.monotonic() + number("timeout", timeout)
         pause = 0.05
         show = reporter(progress)
         try:

@@ -18,11 +18,12 @@ import warnings
 import weakref
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence, Union
 
 import numpy
 
 import tetralight
+from tetralight._arguments import path_text, refused
 from tetralight._jobs import Job, StrPath, setting_names
 from tetralight._positions import Positions, checked_positions, read_groups, write_groups
 from tetralight._progress import Progress, counted, reporter
@@ -95,7 +96,7 @@ def bake(
         if name in settings:
             raise TypeError(f"bake() does not accept {name!r}: {instead}")
     if output is not None:
-        _check_output(Path(output))
+        _check_output(Path(path_text("output", output)))
     if positions is not None:
         groups = {"positions": checked_positions("positions", positions)}
         settings.setdefault("only_given_groups", True)
@@ -142,6 +143,8 @@ def verify(
 
 def run(name: str, /, *, command: StrPath | None = None, progress: Progress = None, **settings: Any) -> dict[str, Any]:
     """Runs any command by its settings, positional arguments in lower case: the answer of `--json`."""
+    if not isinstance(name, str):
+        raise refused("name", "the name of a command", name)
     with Job(command) as job:
         return _run(job, name, settings, progress, name)
 
@@ -211,10 +214,7 @@ def _file(job: Job, source: Scene, name: str) -> Path:
         path = job.folder / name
         path.write_bytes(source)
         return path
-    try:
-        return Path(source)
-    except TypeError:
-        raise TypeError(f"{name.split('.')[0]}: a {type(source).__name__} is neither a path nor bytes") from None
+    return Path(path_text(name.split(".")[0], source, "a path or bytes"))
 
 
 def _volume_file(job: Job, volume: Volume | Scene) -> Path:
@@ -245,8 +245,10 @@ def _group_files(job: Job, groups: Groups | None) -> list[Path]:
         write_groups(path, groups)
         return [path]
     if isinstance(groups, (str, os.PathLike)):
-        return [Path(groups)]
-    return [Path(file) for file in groups]
+        groups = [groups]
+    if not isinstance(groups, Iterable) or isinstance(groups, bytes):
+        raise refused("groups", "positions by name, or paths", groups)
+    return [Path(path_text("groups", file)) for file in groups]
 
 
 def _check_output(output: Path) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from tetralight import _arrays
 from tetralight import _declarations as c
+from tetralight._arguments import wrong_shape
 from tetralight._arrays import AnyArray, FloatArray
 from tetralight._library import Handle, Opened, Source, call, library, opened_file
 from tetralight.errors import BadValue, NotThere
@@ -111,8 +112,9 @@ class Lightmaps(Opened):
         if values is None:
             return None
         array = _arrays.vectors(name, values)
+        _arrays.check_finite(name, array)
         if array.shape not in ((3,), shape + (3,)):
-            raise BadValue(f"{name}: expected the shape {shape + (3,)} or (3,), given {array.shape}")
+            raise wrong_shape(name, f"{shape + (3,)} or (3,)", array.shape)
         return np.ascontiguousarray(np.broadcast_to(array, shape + (3,)))
 
     def _sampled(
@@ -120,6 +122,7 @@ class Lightmaps(Opened):
     ) -> FloatArray:
         handle = self._open_handle()
         uv = np.ascontiguousarray(uv)
+        _arrays.check_finite("uv_page", uv)
         page_of = _arrays.each("pages", pages, uv.shape[:-1], np.uint32).reshape(-1)
         made = np.empty(uv.shape[:-1] + (size,), np.float32)
         inputs = [(array, array.shape[-1] * 4 if array is not None else 0) for array in (uv, *directions)]

@@ -2,6 +2,7 @@
 """Light probe proxy volumes: a grid of light around a large object, as a 3D texture."""
 from __future__ import annotations
 
+import copy
 import ctypes
 from typing import Any
 
@@ -9,10 +10,9 @@ import numpy as np
 
 from tetralight import _arrays
 from tetralight import _declarations as c
+from tetralight._arguments import choice, finite_numbers, numbers, refused
 from tetralight._arrays import FloatArray
 from tetralight._library import call, library
-from tetralight._query import choice
-from tetralight.errors import BadValue
 
 QUALITIES = {"low": c.LPPV_LOW, "normal": c.LPPV_NORMAL, "full": c.LPPV_FULL}
 PLACEMENTS = {"cell_corners": c.LPPV_CELL_CORNERS, "cell_centers": c.LPPV_CELL_CENTERS}
@@ -32,6 +32,19 @@ class Lppv(np.ndarray[Any, Any]):
         self.constants = getattr(made_from, "constants", {})
         self.slab_count = getattr(made_from, "slab_count", 0)
 
+    def __reduce__(self) -> Any:
+        function, arguments, state = super().__reduce__()  # type: ignore[misc]
+        return function, arguments, (state, self.constants, self.slab_count)
+
+    def __setstate__(self, state: Any) -> None:
+        array, self.constants, self.slab_count = state
+        super().__setstate__(array)
+
+    def __deepcopy__(self, memo: Any) -> Lppv:
+        made: Lppv = super().__deepcopy__(memo)
+        made.constants = copy.deepcopy(self.constants, memo)
+        return made
+
     @property
     def slabs(self) -> np.ndarray[Any, Any]:
         """The same memory as (slab, depth, height, width, 4). Call this on the whole texture."""
@@ -43,12 +56,11 @@ class Lppv(np.ndarray[Any, Any]):
 def box_of(
     low: Any, high: Any, resolution: Any, world_from_box: Any, quality: str, placement: str, layout: str, format: str
 ) -> c.LppvBox:
-    counts = np.asarray(resolution)
-    if counts.dtype.kind not in "iu" or counts.shape != (3,) or counts.min() < 1 or counts.max() > 256:
-        raise BadValue(f"resolution: expected three integers from 1 to 256, given {resolution!r}")
-    matrix = np.asarray(np.eye(4) if world_from_box is None else world_from_box, np.float32)
-    if matrix.shape != (4, 4):
-        raise BadValue(f"world_from_box: expected the shape (4, 4), given {matrix.shape}")
+    expected = "three integers from 1 to 256"
+    counts = numbers("resolution", resolution, expected, "iu")
+    if counts.shape != (3,) or counts.min() < 1 or counts.max() > 256:
+        raise refused("resolution", expected, resolution)
+    matrix = finite_numbers("world_from_box", np.eye(4) if world_from_box is None else world_from_box, (4, 4))
     return c.LppvBox(
         world_from_box=(ctypes.c_float * 16)(*matrix.T.ravel()),
         low=(ctypes.c_float * 3)(*_arrays.three("low", low).tolist()),

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from tetralight._arrays import AnyArray, FloatArray
+from tetralight._arguments import integer, numbers
+from tetralight._arrays import AnyArray, FloatArray, vectors
 from tetralight._files import write_file
 from tetralight.errors import BadValue
 
@@ -22,7 +23,7 @@ def png(pixels: Any) -> bytes:
     import struct
     import zlib
 
-    image = np.asarray(pixels)
+    image = numbers("pixels", pixels, "uint8 (height, width[, 3 or 4])")
     channels = image.shape[2] if image.ndim == 3 else 1
     if image.dtype != np.uint8 or image.ndim not in (2, 3) or channels not in (1, 3, 4) or image.size == 0:
         raise BadValue(f"pixels: expected uint8 (height, width[, 3 or 4]), given {image.dtype} {image.shape}")
@@ -47,7 +48,7 @@ def write_png(path: str | os.PathLike[str], pixels: Any) -> None:
 
 def tone_mapped(light: AnyArray) -> Pixels:
     """sRGB colors of linear light (…, 3), as bright as the brighter parts of it allow."""
-    values = np.maximum(np.nan_to_num(np.asarray(light, np.float32)), 0)
+    values = np.maximum(np.nan_to_num(vectors("light", light)), 0)
     luminance = values @ _LUMINANCE
     bright = float(np.percentile(luminance, 90)) if luminance.size else 0.0
     linear = np.clip(values * (0.7 / bright if bright > 0 else 1.0), 0, 1)
@@ -67,8 +68,7 @@ def _disc(radius: float) -> tuple[AnyArray, AnyArray, AnyArray]:
 def probes_from_above(positions: AnyArray, colors: Pixels, width: int = 640) -> Pixels:
     """(height, width, 3): a ball for each position; X points right, Z down, and higher balls hide lower
     ones."""
-    if width < 16:
-        raise BadValue(f"width: expected at least 16, given {width}")
+    width = integer("width", width, 16, 65536)
     if len(positions) == 0:
         return np.full((width // 2, width, 3), BACKGROUND, np.uint8)
     plane = np.asarray(positions, np.float64)[:, (0, 2)]

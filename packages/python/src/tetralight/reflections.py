@@ -9,9 +9,9 @@ import numpy as np
 
 from tetralight import _arrays
 from tetralight import _declarations as c
+from tetralight._arguments import integer, refused, wrong_shape
 from tetralight._arrays import AnyArray, FloatArray
 from tetralight._library import Handle, Opened, Source, call, library, opened_file
-from tetralight.errors import BadValue
 
 PROBE = np.dtype(
     [
@@ -63,6 +63,7 @@ class Reflections(Opened):
         """(probe, face, row, column, 4): halves of a level, without a copy. Faces: +X, -X, +Y, -Y, +Z, -Z."""
         handle = self._open_handle()
         array = c.ConstArray()
+        level = integer("level", level)
         call(library.tetralight_reflections_texels, handle.pointer, level, ctypes.byref(array))
         side = max(1, self.size >> level)
         return _arrays.view_of(handle, array.data, (self.probe_count, 6, side, side, 4), np.float16)
@@ -74,8 +75,13 @@ class Reflections(Opened):
         points = np.ascontiguousarray(_arrays.vectors("positions", positions, 3, np.float64))
         rays = np.ascontiguousarray(_arrays.vectors("directions", directions))
         if rays.shape != points.shape:
-            raise BadValue(f"directions: expected the shape {points.shape}, given {rays.shape}")
+            raise wrong_shape("directions", points.shape, rays.shape)
+        _arrays.check_finite("positions", points)
+        _arrays.check_finite("directions", rays)
         rough = _arrays.each("roughness", roughness, points.shape[:-1], np.float32).reshape(-1)
+        is_wrong = ~((rough >= 0) & (rough <= 1))
+        if is_wrong.any():
+            raise refused("roughness", "numbers from 0 to 1", float(rough[is_wrong][0]))
         made = np.empty(points.shape, np.float32)
         blend = c.ReflectionBlend()
         for i, value in enumerate(rough.tolist()):

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from tetralight._arguments import finite_numbers, numbers, wrong_shape
 from tetralight._arrays import AnyArray, FloatArray, vectors
-from tetralight.errors import BadValue
 
 Y0 = 0.5 / math.sqrt(math.pi)
+LARGEST_LIGHT = 1e30
+"""Of a sky or a sun. The light of probes stays finite in floats."""
 _BLOCK = 16384  # normals whose basis stays in a processor's cache
 
 
@@ -35,11 +37,11 @@ def irradiance(coefficients: AnyArray, normals: Any) -> FloatArray:
     """(…, 3): irradiance of surfaces with unit normals, not divided by pi. `coefficients` has the shape
     (…, 9, 3); `normals` has one normal for each of them or one for all."""
     if coefficients.ndim < 2 or coefficients.shape[-2:] != (9, 3):
-        raise BadValue(f"coefficients: expected the shape (…, 9, 3), given {coefficients.shape}")
+        raise wrong_shape("coefficients", "(…, 9, 3)", coefficients.shape)
     unit = vectors("normals", normals)
     shape = coefficients.shape[:-2]
     if unit.shape[:-1] not in ((), shape):
-        raise BadValue(f"normals: expected the shape {shape + (3,)} or (3,), given {unit.shape}")
+        raise wrong_shape("normals", f"{shape + (3,)} or (3,)", unit.shape)
     if unit.ndim == 1:
         return np.asarray(np.tensordot(basis(unit), coefficients.astype(np.float32, copy=False), (0, -2)))
     flat = coefficients.reshape(-1, 9, 3)
@@ -84,9 +86,11 @@ def from_packed(packed: AnyArray) -> FloatArray:
 def sky_coefficients(sky: Any) -> FloatArray:
     """(16, 3): the radiance of a sky in bands 0 to 3, L_i = integral of L Y_i, from one number, RGB, or the
     coefficients themselves."""
-    array = np.asarray(sky)
-    if array.dtype.kind not in "fiu" or array.shape not in ((), (3,), (16, 3)):
-        raise BadValue(f"sky: expected a number, RGB or the shape (16, 3), given {array.dtype} {array.shape}")
+    expected = "a number, RGB or the shape (16, 3)"
+    array = numbers("sky", sky, expected)
+    if array.shape not in ((), (3,), (16, 3)):
+        raise wrong_shape("sky", "(), (3,) or (16, 3)", array.shape)
+    array = finite_numbers("sky", array, array.shape, -LARGEST_LIGHT, LARGEST_LIGHT)
     made = np.zeros((16, 3), np.float32)
     if array.ndim == 2:
         made[...] = array

@@ -13,24 +13,25 @@ from tetralight import _arrays
 from tetralight import _declarations as c
 from tetralight import _query, mesh
 from tetralight import lppv as proxy
+from tetralight._arguments import finite_numbers, number, path_text
 from tetralight._arrays import AnyArray, FloatArray, three, unit_vector
 from tetralight._contents import Contents
 from tetralight._gate import Gate
-from tetralight._library import Handle, Source, call, library, opened_file, path_bytes
+from tetralight._library import Handle, NotCopied, Source, call, library, opened_file
 from tetralight.errors import BadValue, Closed, NotThere
 from tetralight.irradiance import ProbeIrradiance, of_probes
 from tetralight.light import Light
 from tetralight.lppv import Lppv
 from tetralight.picture import Pixels, png, probes_from_above, tone_mapped
 from tetralight.scene_light import SceneLight, scene_light
-from tetralight.sh import mean_irradiance, sky_coefficients
+from tetralight.sh import LARGEST_LIGHT, mean_irradiance, sky_coefficients
 
 Result = TypeVar("Result")
 
 DIMENSIONS = ("no probes", "one probe", "a line", "a plane", "space")
 
 
-class Volume:
+class Volume(NotCopied):
     """`tetralight.open` makes it. All calls may run in several threads at once: those that change the
     light (`recombine`, `relight`) wait for the others."""
 
@@ -103,11 +104,7 @@ class Volume:
     def _read(self, read: Callable[[Contents], Result]) -> Result:
         """Calls a function that may run beside others that read."""
         contents = self._open_contents()
-        self._gate.enter()
-        try:
-            return read(contents)
-        finally:
-            self._gate.leave()
+        return self._gate.run(lambda: read(contents))
 
     @property
     def positions(self) -> AnyArray:
@@ -235,23 +232,21 @@ class Volume:
         weight. Arrays from before keep the light that they show."""
         with self._changes:
             array = self._weights_of(weights, by_name)
-            self._change(library.tetralight_recombine, array.ctypes.data, len(array))
+            self._change([(library.tetralight_recombine, array.ctypes.data, len(array))])
 
     def _weights_of(self, weights: Any, by_name: dict[str, float]) -> FloatArray:
         """One weight for each layer."""
+        if weights is not None and not hasattr(weights, "keys"):
+            if by_name:
+                raise BadValue("weights: expected an array or names, given both")
+            return finite_numbers("weights", weights, (self._layer_count,), 0).astype(np.float32)
         current = self.layers
-        if weights is None or hasattr(weights, "keys"):
-            chosen = {**dict(weights or {}), **by_name}
-            unknown = sorted(set(chosen) - set(current))
-            if unknown:
-                raise NotThere(f"{self.name}: there is no layer {unknown[0]!r}; layers: {', '.join(current) or 'none'}")
-            weights = list({**current, **chosen}.values())
-        elif by_name:
-            raise BadValue("weights: expected an array or names, given both")
-        array = np.ascontiguousarray(weights, np.float32)
-        if array.shape != (self._layer_count,):
-            raise BadValue(f"weights: expected the shape ({self._layer_count},), given {array.shape}")
-        return array
+        chosen = {**dict(weights or {}), **by_name}
+        for name, weight in chosen.items():
+            if name not in current:
+                raise NotThere(f"{self.name}: there is no layer {name!r}; layers: {', '.join(current) or 'none'}")
+            current[name] = number(f"weights[{name!r}]", weight, 0, expected="a finite number >= 0")
+        return np.array(list(current.values()), np.float32)
 
     def relight(self, *, sky: Any = None, sun_direction: Any = None, sun_irradiance: Any = None) -> None:
         """Replaces the light of the sky and the sun, in a volume that was baked with transfer.
@@ -259,34 +254,41 @@ class Volume:
         sky: its radiance: one number, RGB, or (16, 3) coefficients of bands 0 to 3.
         sun_direction: the vector along which the sun shines; sun_irradiance: RGB, on a surface that faces
             it. Of a mixed sun the volume holds only the bounces.
+        If one of them is refused, neither changes.
         Arrays from before keep the light that they show.
         """
         if (sun_direction is None) != (sun_irradiance is None):
             raise BadValue("sun_irradiance: expected sun_direction and sun_irradiance, given only one of them")
-        radiance = None if sky is None else sky_coefficients(sky)
-        sun = None
+        changes: list[tuple[bool, Any]] = []
+        if sky is not None:
+            radiance = sky_coefficients(sky)
+            changes.append((self.can_relight_sky, (library.tetralight_relight_sky, radiance.ctypes.data)))
         if sun_direction is not None:
-            sun = unit_vector("sun_direction", sun_direction), three("sun_irradiance", sun_irradiance)
+            direction = unit_vector("sun_direction", sun_direction)
+            light = three("sun_irradiance", sun_irradiance, 0, LARGEST_LIGHT)
+            sun = library.tetralight_relight_sun, direction.ctypes.data, light.ctypes.data
+            changes.append((self.can_relight_sun, sun))
+        # A change that the volume refuses comes first: nothing has changed then.
+        changes.sort(key=lambda change: change[0])
         with self._changes:
-            if radiance is not None:
-                self._change(library.tetralight_relight_sky, radiance.ctypes.data)
-            if sun is not None:
-                self._change(library.tetralight_relight_sun, sun[0].ctypes.data, sun[1].ctypes.data)
+            self._change([call_of for _, call_of in changes])
 
-    def _change(self, function: Any, *arguments: Any) -> None:
-        """Calls a function that must run alone on the volume."""
+    def _change(self, calls: list[Any]) -> None:
+        """Calls functions of the library that must run alone on the volume. No query runs between them."""
         contents = self._open_contents()
-        self._gate.close()
-        try:
+
+        def change() -> None:
             contents.prepare_change()
-            call(function, contents.handle.pointer, *arguments)
-        finally:
-            self._gate.open()
+            for function, *arguments in calls:
+                call(function, contents.handle.pointer, *arguments)
+
+        self._gate.run_alone(change)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the volume with its present light to a .probes file."""
-        name = path_bytes(path)
-        self._read(lambda contents: call(library.tetralight_save, contents.handle.pointer, name))
+        name = path_text("path", path)
+        name = "./-" if name == "-" else name  # which is standard output for the library
+        self._read(lambda contents: call(library.tetralight_save, contents.handle.pointer, os.fsencode(name)))
 
     # Pictures and files
 
