@@ -4,6 +4,7 @@ import gc
 import json
 import unittest
 import weakref
+from unittest import mock
 
 import numpy as np
 
@@ -101,6 +102,18 @@ class Arrays(unittest.TestCase):
         empty = tetralight.open(vector_path("empty"))
         self.assertEqual((empty.positions.shape, empty.cells.shape), ((0, 3), (0, 4)))
         self.assertEqual((empty.validity.shape, empty.standard_error.shape), ((0,), (0,)))
+
+
+class Metadata(unittest.TestCase):
+    def test_other_text_than_a_json_object_is_corrupt(self):
+        """The library does not parse the text."""
+        volume = tetralight.open(vector_path("space"))
+        for text in ("{", "[1]", "5", "[" * 100_000):
+            with self.subTest(text[:5]), mock.patch.object(type(volume._contents), "_text", lambda *_: text):
+                with self.assertRaisesRegex(tetralight.Corrupt, "metadata: not "):
+                    volume.metadata
+        with mock.patch.object(type(volume._contents), "_text", lambda *_: ""):
+            self.assertEqual(volume.metadata, {})
 
 
 class Irradiance(unittest.TestCase):

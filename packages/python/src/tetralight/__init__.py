@@ -40,9 +40,11 @@ __all__ = [
     "NO_PAGE",
     "BadValue",
     "Cancelled",
+    "Client",
     "Closed",
     "Corrupt",
     "Error",
+    "Grid",
     "Light",
     "Lightmaps",
     "Lppv",
@@ -54,10 +56,15 @@ __all__ = [
     "Unavailable",
     "Unsupported",
     "Volume",
+    "bake",
+    "check_leaks",
+    "grid",
     "open",
     "open_lightmaps",
     "open_reflections",
+    "run",
     "tone_mapped",
+    "verify",
     "write_png",
 ]
 
@@ -75,7 +82,6 @@ _LATER = {
     "run": "commands",
     "verify": "commands",
 }
-__all__ += list(_LATER)
 
 
 def __getattr__(name: str) -> Any:

@@ -15,7 +15,7 @@ import numpy as np
 from tetralight import _declarations as c
 from tetralight._arrays import AnyArray, view_of
 from tetralight._library import Handle, call, library
-from tetralight.errors import NotThere
+from tetralight.errors import Corrupt, NotThere
 
 
 class Contents:
@@ -78,7 +78,12 @@ class Contents:
     def metadata(self) -> dict[str, Any]:
         import json
 
-        made: dict[str, Any] = json.loads(self._text(c.ARRAY_METADATA) or "{}")
+        try:
+            made = json.loads(self._text(c.ARRAY_METADATA) or "{}")
+        except (ValueError, RecursionError) as reason:
+            raise Corrupt(f"metadata: not JSON: {reason}") from reason
+        if not isinstance(made, dict):
+            raise Corrupt("metadata: not a JSON object")
         return made
 
     def ambient(self) -> AnyArray:
