@@ -198,8 +198,8 @@ std::vector<Job> jobs_of(VerifyReport& report, uint64_t seed) {
     return jobs;
 }
 
-/// Removes positions without traced light. Returns invalid_argument if that leaves nothing of what
-/// was asked for.
+/// Removes positions without traced light. Returns invalid_argument if no probe remains of those
+/// that were chosen, or no place.
 Status remove_untraced(VerifyReport& report, double time_limit_seconds) {
     const auto is_untraced = [](const auto& element) { return element.traced.sample_count == 0; };
     const size_t probes = std::erase_if(report.probes, is_untraced);

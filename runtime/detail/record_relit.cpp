@@ -15,7 +15,7 @@ class MemberScanner {
   public:
     explicit MemberScanner(std::string_view text) : text_(text) {}
 
-    /// Goes past this character and the spaces before it; false if another one is there.
+    /// Skips spaces, then the expected character. Returns false if another character follows.
     bool take(char expected) {
         skip_spaces();
         if (place_ >= text_.size() || text_[place_] != expected) return false;
@@ -23,7 +23,7 @@ class MemberScanner {
         return true;
     }
 
-    /// Goes past a string and gives it with its quotes; empty if there is none.
+    /// Skips a string and returns it with its quotes, or an empty text if no string follows.
     std::string_view take_string() {
         skip_spaces();
         const size_t begin = place_;
@@ -34,7 +34,8 @@ class MemberScanner {
         return text_.substr(begin, place_ - begin);
     }
 
-    /// Goes to the comma or the bracket that ends a value, and gives the value; empty if none does.
+    /// Skips a value up to the comma or bracket after it, and returns the value, or an empty text
+    /// if neither follows.
     std::string_view take_value() {
         skip_spaces();
         const size_t begin = place_;

@@ -6,9 +6,9 @@
 
 namespace tetralight::detail {
 
-/// Adds the name of a call that changed the light to the member "relit" of metadata, where
-/// `tetralight relight` records its options. A name that is there is not added again, so that a
-/// game can relight in each frame. Metadata that is not a JSON object is replaced by one.
+/// Returns metadata whose member "relit" also holds the name of a function that changed the light.
+/// `tetralight relight` stores its options in the same member. A name that it already holds is not
+/// added again: a game may relight in each frame. Metadata that is not a JSON object is replaced.
 /// Precondition: `call` needs no escapes in JSON.
 [[nodiscard]] std::string record_relit(std::string_view metadata, std::string_view call);
 

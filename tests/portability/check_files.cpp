@@ -159,7 +159,7 @@ class FileCheck {
         ++file_count_;
     }
 
-    /// A link stays. What it leads to is written, though at first there is no such file.
+    /// Writing through a link keeps the link and creates the file that it names.
     void write_through_a_link() {
         const std::string link = path("link");
         std::error_code failure;

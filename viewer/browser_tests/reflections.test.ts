@@ -97,7 +97,7 @@ test('each pixel blends the probes by their influence', () => visit(
         const white = probeAt([-4, 2, 0], [-7.5, -4, -8], [-0.5, 40, 8], {blend_distance: 1});
         const file = reflectionFile([white, {...inHall(), box: null}], [8], 2, cube => cube === 0 ? [1, 1, 1] : [0, 0, 0]);
         await store(page, {halves: file});
-        // A page that cannot open what its link names forgets it: the link is followed when the file is there.
+        // The page removes a missing file from its link. So the link is opened after the file is stored.
         await page.goto('about:blank');
         await page.goto(`${server.url}/#scene=${mirror}&${kFromAbove}&reflections=halves`);
         await ready(page);
