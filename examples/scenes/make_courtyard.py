@@ -214,6 +214,8 @@ def lattice_png(size=64, holes=2):
 class Gltf:
     """Collects glTF's arrays and the binary chunk, and what the probes must keep away from."""
 
+    materials = MATERIALS  # by name, in the order of the file
+
     def __init__(self):
         self.binary = bytearray()
         self.accessors, self.views, self.meshes, self.nodes, self.cameras = [], [], [], [], []
@@ -257,7 +259,7 @@ class Gltf:
         if uvs:
             attributes["TEXCOORD_0"] = self.float_accessor(uvs)
         return {"attributes": attributes, "indices": self.index_accessor(triangles),
-                "material": list(MATERIALS).index(material)}
+                "material": list(self.materials).index(material)}
 
     def mesh(self, name, primitives):
         self.meshes.append({"name": name, "primitives": primitives})
