@@ -13,6 +13,7 @@
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
+#include <tetralight/render/shadow_origin.h>
 #include <tetralight/runtime/shade.h>
 
 namespace tetralight {
@@ -138,8 +139,8 @@ glm::vec3 SceneShader::lightmap_light(const Surface& surface, const glm::vec3& b
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
     const bool moves = !scene_->instances[surface.instance].contributes_gi;
     const bool is_mapped = has_lightmap(surface);
-    const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
-    const glm::dvec3 world_origin = traced_.world_from_render(origin);
+    const glm::dvec3 world_origin =
+        traced_.world_from_render(shadow_origin(*scene_, traced_, surface));
     glm::vec4 mask(1.0f);
     if (is_mapped) {
         const LightmapsView& maps = light_.lightmaps;
