@@ -13,6 +13,7 @@
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/preview_volume.h>
 #include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
@@ -24,6 +25,8 @@ struct Bake {
     BakeStoring storing;
     bool is_explained = false;
     bool checks_leaks = false;
+    std::string preview_path;
+    Status preview_status = Ok{};
     CommonOptions common;
     GroupFiles group_files;
 
@@ -33,6 +36,7 @@ struct Bake {
           storing(values),
           is_explained(values.flag("explain")),
           checks_leaks(values.flag("check_leaks")),
+          preview_path(values.text("preview")),
           common(values) {
         if (output.empty() && !is_explained) require(values, "output");
     }
@@ -49,6 +53,7 @@ struct Bake {
     Status run_bake() {
         if (auto status = check_output(output, inputs.paths()); !status) return status;
         if (auto status = storing.check_progress_file(inputs.paths()); !status) return status;
+        if (auto status = check_preview(); !status) return status;
         if (auto status = storing.open(); !status) return status;
         auto scene = inputs.scene_options.read();
         if (!scene) return scene.error();
@@ -58,6 +63,13 @@ struct Bake {
         common.warn(group_files.warnings());
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
+    }
+
+    [[nodiscard]] Status check_preview() const {
+        if (preview_path.empty()) return Ok{};
+        std::vector<std::string> others = inputs.paths();
+        others.insert(others.end(), {output, storing.progress_file});
+        return check_side_file(preview_path, others, "preview");
     }
 
     /// Bakes, writes and reports, and then removes what was kept on the way.
@@ -79,8 +91,26 @@ struct Bake {
         ProgressFile file(storing.progress_file);
         BakeProgressDisplay display(common.is_quiet, inputs.settings.bake.time_budget_seconds,
                                     &file);
-        return storing.bake(scene, prepared,
-                            [&](const BakeProgress& progress) { return display.show(progress); });
+        RangePreview preview;
+        uint64_t preview_count = 0;
+        if (!preview_path.empty()) {
+            preview.show = [&](const PartialBake& so_far) {
+                if (!preview_status) return;
+                write_preview(preview_volume(prepared, so_far));
+                if (preview_status) file.set_preview(++preview_count);
+            };
+        }
+        return storing.bake(
+            scene, prepared, [&](const BakeProgress& progress) { return display.show(progress); },
+            preview);
+    }
+
+    /// The first failure is kept, and stops no bake; after it nothing is written.
+    void write_preview(const ProbeVolume& volume) {
+        if (preview_path.empty() || !preview_status) return;
+        preview_status = write_probe_file(preview_path, volume.view());
+        if (!preview_status)
+            common.warn("the preview is not up to date: ", preview_status.error(), "");
     }
 
     Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
@@ -93,11 +123,12 @@ struct Bake {
     }
 
     Status write_whole(const Scene& scene, PreparedBake prepared, const RangeBake& baked,
-                       double seconds) const {
+                       double seconds) {
         const BakedVolume result =
             finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
         common.warn(group_files.locate(result.report.warnings));
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
+        write_preview(result.volume);
         const BakeRun run{output, inputs.settings.bake, seconds, baked.stored.earlier_ray_count};
         if (!checks_leaks) {
             report_volume(common, run, result);

@@ -126,11 +126,11 @@ BakeStorage BakeStoring::storage() {
 }
 
 Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prepared,
-                                    const BakeCallback& show) {
+                                    const BakeCallback& show, const RangePreview& preview) {
     const auto places = range_of(prepared.capture_positions.size());
     if (!places) return places.error();
     const BakeStorage used = storage();
-    auto baked = bake_range(scene, prepared, *places, used, show);
+    auto baked = bake_range(scene, prepared, *places, used, show, preview);
     if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
     return interrupted();
 }

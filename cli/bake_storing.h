@@ -47,7 +47,7 @@ class BakeStoring {
     /// Bakes what is not known yet. Returns cancelled after a signal; the message says what is
     /// kept.
     [[nodiscard]] Result<RangeBake> bake(const Scene& scene, const PreparedBake& prepared,
-                                         const BakeCallback& show);
+                                         const BakeCallback& show, const RangePreview& preview);
 
     /// Warns of damaged entries, of entries that were not used, and of saves that failed.
     void warn(const StoredBake& baked, const CommonOptions& common) const;

@@ -22,6 +22,7 @@ struct CheckLeaks {
     SceneOptions scene_options;
     std::string picture;
     LeakSettings settings;
+    bool lists_all_places = false;
     /// 0: none.
     double max_leak = 0.0;
     CommonOptions common;
@@ -30,6 +31,7 @@ struct CheckLeaks {
         : volume_path(values.text("volume")),
           scene_options(values),
           picture(values.text("picture")),
+          lists_all_places(values.flag("all_places")),
           max_leak(values.is_given("max_leak") ? values.number("max_leak") : 0.0),
           common(values) {
         settings.place_count = values.integer32("places");
@@ -106,6 +108,7 @@ struct CheckLeaks {
     [[nodiscard]] Status judge(const LeakReport& report) const {
         Json json{{"file", volume_path}};
         json.update(to_json(report));
+        if (lists_all_places) json["all_places"] = all_places_json(report);
         const std::string text = str_cat(printable(volume_path), ": ", to_text(report));
         const bool is_good = max_leak == 0.0 || report.through_walls.mean <= max_leak;
         if (is_good || !common.is_json) common.report(picture, json, text);

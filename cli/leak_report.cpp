@@ -18,6 +18,7 @@ Json leak_place_json(const LeakPlace& place) {
     return {{"position", to_json(place.position)},
             {"is_unseen", place.is_unseen},
             {"through_walls", place.through_walls()},
+            {"missing", place.missing()},
             {"answer", place.answer},
             {"traced", place.traced}};
 }
@@ -75,6 +76,12 @@ Json to_json(const LeakReport& report) {
              {{"through_walls", leak_part_json(report.plain_through_walls)},
               {"missing", leak_part_json(report.plain_missing)}}},
             {"worst", worst}};
+}
+
+Json all_places_json(const LeakReport& report) {
+    Json places = Json::array();
+    for (const LeakPlace& place : report.places) places.push_back(leak_place_json(place));
+    return places;
 }
 
 std::string to_text(const LeakReport& report) {

@@ -13,6 +13,9 @@ namespace tetralight::cli {
 /// Shares of the mean light, and the worst places.
 [[nodiscard]] Json to_json(const LeakReport& report);
 
+/// All places, in the order of the report.
+[[nodiscard]] Json all_places_json(const LeakReport& report);
+
 /// The same as lines for people, without a line break at the end.
 [[nodiscard]] std::string to_text(const LeakReport& report);
 

@@ -108,8 +108,8 @@ struct Reflect {
     void warn_of_sky_alone() const {
         const std::string& path =
             inputs.places_path.empty() ? inputs.scene_options.path : inputs.places_path;
-        common.warn({str_cat(shown_path(path), ": has no reflection probes; ", shown_path(output),
-                             " holds the sky alone")});
+        common.warn({str_cat(shown_path(path),
+                             ": has no reflection probes; the result holds the sky alone")});
     }
 
     void report(const BakedReflections& baked) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace tetralight {
 namespace {
@@ -51,14 +52,16 @@ struct UnknownProbes {
 }  // namespace
 
 Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, PlaceRange range,
-                             const BakeStorage& storage, const BakeCallback& callback) {
+                             const BakeStorage& storage, const BakeCallback& callback,
+                             const RangePreview& preview) {
     const Status checked = check_range(range, {"probe", prepared.capture_positions.size()});
     if (!checked) return checked.error();
     const BakeSettings& settings = prepared.settings.bake;
     UnknownProbes probes(prepared, range);
-    const auto stored =
-        bake_with_stores(scene, {probes.positions}, settings, storage,
-                         {probes.accumulators, probes.split()}, {.progress = callback});
+    BakeHooks hooks{.progress = callback, .preview_seconds = preview.seconds};
+    if (preview.show) hooks.preview = [&] { preview.show(probes.in_range(prepared, range)); };
+    const auto stored = bake_with_stores(scene, {probes.positions}, settings, storage,
+                                         {probes.accumulators, probes.split()}, std::move(hooks));
     if (!stored) return stored.error();
     RangeBake bake{{}, *stored};
     bake.partial = probes.in_range(prepared, range);

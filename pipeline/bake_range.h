@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include <tetralight/bake/bake_progress.h>
 #include <tetralight/base/result.h>
@@ -23,11 +24,20 @@ struct RangeBake {
     StoredBake stored;
 };
 
+/// Looks at the light of a range while it is baked.
+struct RangePreview {
+    /// Called with the light so far on the thread of the bake; empty: no previews.
+    std::function<void(const PartialBake& so_far)> show{};
+    /// Time between two calls, or more: previews take at most a fiftieth of the time.
+    double seconds = 2.0;
+};
+
 /// Bakes the probes of a range to the end. Returns invalid_argument (field "probes") if the range
 /// is not within the volume, cancelled if the callback returns false, else errors of
 /// `bake_accumulators`.
 [[nodiscard]] Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared,
                                            PlaceRange range, const BakeStorage& storage = {},
-                                           const BakeCallback& callback = {});
+                                           const BakeCallback& callback = {},
+                                           const RangePreview& preview = {});
 
 }  // namespace tetralight

@@ -120,7 +120,7 @@ Json Bakes::to_json(const Bake& bake) {
         json["seconds_left"] = bake.seconds_left;
         json["at_target"] = bake.at_target;
         json["share_at_target"] = bake.share_at_target;
-        if (bake.kind == Kind::Lightmaps) json["preview"] = bake.preview;
+        if (bake.kind != Kind::Reflections) json["preview"] = bake.preview;
     }
     if (!bake.result.empty()) json[noun_of(bake.kind)] = bake.result;
     if (!bake.error.empty()) json["error"] = bake.error;
@@ -202,12 +202,25 @@ bool Bakes::is_over(const std::string& id) const {
 std::string Bakes::preview_path(const std::string& id, const std::string& name) const {
     const std::lock_guard lock(mutex_);
     const Bake& bake = find_locked(id);
-    if (bake.kind == Kind::Lightmaps && !is_final(bake.state))
-        return str_cat(store_.bake_folder(id), "/", kResults, "/", name);
-    throw Problem{404, "not_found",
-                  bake.kind == Kind::Lightmaps ? "the bake has ended: " + bake.state
-                                               : "bakes of probes have no preview",
-                  "bake", id};
+    if (bake.kind != Kind::Lightmaps)
+        throw Problem{404, "not_found", "only bakes of lightmaps have pages and a scene", "bake",
+                      id};
+    return result_path_locked(bake, name);
+}
+
+std::string Bakes::preview_file_path(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    const Bake& bake = find_locked(id);
+    if (bake.kind == Kind::Reflections) {
+        throw Problem{404, "not_found", "bakes of reflection probes have no preview", "bake", id};
+    }
+    return result_path_locked(bake, str_cat("preview", extension_of(bake.kind)));
+}
+
+std::string Bakes::result_path_locked(const Bake& bake, const std::string& name) const {
+    if (!is_final(bake.state))
+        return str_cat(store_.bake_folder(bake.id), "/", kResults, "/", name);
+    throw Problem{404, "not_found", "the bake has ended: " + bake.state, "bake", bake.id};
 }
 
 /// Newest first.

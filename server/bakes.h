@@ -83,8 +83,11 @@ class Bakes {
     [[nodiscard]] Json unfinished_and_newer(int64_t& number) const;
 
     [[nodiscard]] bool is_over(const std::string& id) const;
-    /// The path of a file in the results of a bake of lightmaps. Throws 404 if there is no such
-    /// bake, or if it bakes no lightmaps or has ended.
+    /// The path of the newest preview, a file of what the bake makes. Throws 404 if there is no
+    /// such bake, or if it has ended or bakes reflection probes.
+    [[nodiscard]] std::string preview_file_path(const std::string& id) const;
+    /// The path of another file in the results of a bake of lightmaps. Throws 404 if there is no
+    /// such bake, or if it bakes no lightmaps or has ended.
     [[nodiscard]] std::string preview_path(const std::string& id, const std::string& name) const;
     /// When a bake last ended well, in seconds since 1970; 0 = never.
     [[nodiscard]] double last_done() const;
@@ -124,6 +127,7 @@ class Bakes {
     [[nodiscard]] static Json to_json(const Bake& bake);
     void load();
     void clear_folders() const;
+    [[nodiscard]] std::string result_path_locked(const Bake& bake, const std::string& name) const;
     [[nodiscard]] const Bake& find_locked(const std::string& id) const;
     [[nodiscard]] std::vector<const Bake*> sorted_locked() const;
     [[nodiscard]] int64_t number_of_locked(const std::string& place) const;

@@ -27,6 +27,7 @@ std::string result_path(Kind kind) {
 Json own_settings(Kind kind) {
     Json json{{"output", result_path(kind)}, {"progress_file", kProgress}};
     json["chunks"] = kChunks;
+    if (kind == Kind::Volumes) json["preview"] = "results/preview.probes";
     if (kind != Kind::Lightmaps) return json;
     json["preview"] = {"results/preview.png", "results/preview.lightmaps"};
     json["unwrapped"] = "results/scene.glb";

@@ -44,6 +44,7 @@ const char* fault_of_start(Kind kind, std::string_view start) {
             return nullptr;
         case Kind::Volumes:
             if (has_lightmaps) return "contains lightmaps, which /v1/lightmaps stores";
+            if (start.starts_with("glTF")) return "is a scene, which /v1/scenes stores";
             return is_ktx2(start) ? "is a KTX file; /v1/reflections stores reflection probes"
                                   : nullptr;
         case Kind::Lightmaps:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at lightmaps that are being baked.
+// Looks at volumes and lightmaps that are being baked.
 #include <fcntl.h>
 #include <sys/stat.h>
 
@@ -44,9 +44,7 @@ std::vector<std::byte> read_result(const Service& service, const std::string& pa
     return bytes;
 }
 
-Response preview_response(Service& service, const Request& request, const std::string& name,
-                          const char* content_type) {
-    const std::string path = service.bakes.preview_path(request.captures[0], name);
+Response preview_response(Service& service, const std::string& path, const char* content_type) {
     return {.content_type = content_type,
             .headers = {{"Cache-Control", "no-store"}},
             .body = read_result(service, path)};
@@ -89,7 +87,10 @@ Response page_picture(Service& service, const Request& request) {
     const uint32_t page = page_number(request);
     const std::vector<std::string> names = page_names(service, request.captures[0]);
     if (names.empty()) throw no_preview();
-    if (page < names.size()) return preview_response(service, request, names[page], "image/png");
+    if (page < names.size()) {
+        return preview_response(
+            service, service.bakes.preview_path(request.captures[0], names[page]), "image/png");
+    }
     throw Problem{404, "not_found",
                   str_cat("page: there is no page ", page, "; the preview has ", names.size(),
                           names.size() == 1 ? " page" : " pages", ", from 0 on"),
@@ -106,16 +107,18 @@ std::vector<Route> preview_routes(Service& service) {
                      .parameters = std::move(parameters),
                      .run_on = Plan::RunOn::Compute};
     };
-    const char* const binary = "application/octet-stream";
-    return {route("/v1/bakes/{bake}/preview", {"page"},
-                  [&](Request& r) { return page_picture(service, r); }),
-            route("/v1/bakes/{bake}/preview/file", {},
-                  [&, binary](Request& r) {
-                      return preview_response(service, r, "preview.lightmaps", binary);
-                  }),
-            route("/v1/bakes/{bake}/preview/scene", {}, [&](Request& r) {
-                return preview_response(service, r, "scene.glb", "model/gltf-binary");
-            })};
+    return {
+        route("/v1/bakes/{bake}/preview", {"page"},
+              [&](Request& r) { return page_picture(service, r); }),
+        route("/v1/bakes/{bake}/preview/file", {},
+              [&](Request& r) {
+                  return preview_response(service, service.bakes.preview_file_path(r.captures[0]),
+                                          "application/octet-stream");
+              }),
+        route("/v1/bakes/{bake}/preview/scene", {}, [&](Request& r) {
+            return preview_response(service, service.bakes.preview_path(r.captures[0], "scene.glb"),
+                                    "model/gltf-binary");
+        })};
 }
 
 }  // namespace tetralight::server

@@ -193,6 +193,21 @@ Response lppv(Service& service, const Request& request) {
             .body = file_body(folder.file(output))};
 }
 
+/// The report says how much light comes through walls; nothing is stored.
+Response check_leaks(Service& service, const Request& request) {
+    const Json order = parse_object(request.body);
+    check_order(settings::kCheckLeaks, order);
+    const WorkFolder folder = service.store.make_work_folder();
+    const Task task{settings::kCheckLeaks, order};
+    link_files(service, task, folder);
+    Json report = run_tool(service, request, order,
+                           {.command = std::string(task.table.command),
+                            .settings = job_settings(task.table, order),
+                            .folder = folder.path()});
+    for (const char* member : {"file", "files"}) report.erase(member);
+    return json_response(report);
+}
+
 Response render(Service& service, const Request& request) {
     const Json order = parse_object(request.body);
     check_order(settings::kRender, order);
@@ -236,6 +251,7 @@ std::vector<Route> tool_routes(Service& service) {
             route("/v1/lightmaps/{lightmaps}/export", false, export_lightmaps),
             route("/v1/reflections/{reflections}/validate", false, validate_reflections),
             route("/v1/relight", true, relight),
+            route("/v1/check-leaks", false, check_leaks),
             route("/v1/lppv", false, lppv),
             route("/v1/render", false, render)};
 }

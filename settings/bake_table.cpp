@@ -130,6 +130,14 @@ constexpr Setting kStoring[] = {
              "this volume; if the scene or the settings differ, bake all probes and say why",
      .without = "all probes are baked"},
     kProgressFile,
+    {.name = "preview",
+     .type = Type::Path,
+     .help = "While it bakes, write the volume with the light so far to this file about every 2 "
+             "seconds, and at the end the finished volume",
+     .extensions = ".probes",
+     .without = "no preview",
+     .excludes = "probes",
+     .access = Access::Command},
     {.name = "check_leaks",
      .type = Type::Flag,
      .help = "After the bake compare its light with traced light at 1000 random places, as "

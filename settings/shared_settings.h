@@ -98,8 +98,7 @@ inline constexpr Setting kClearance{.name = "clearance",
                                     .help = "Least distance of places from surfaces",
                                     .unit = "metres",
                                     .range = {0, 1e9},
-                                    .default_text = "0.05",
-                                    .access = Access::Command};
+                                    .default_text = "0.05"};
 
 constexpr Setting seed_setting(std::string_view help) {
     return {.name = "seed",

@@ -389,6 +389,24 @@ TEST_F(Bake, SaysHowAmountsAreWritten) {
     EXPECT_TRUE(contains(message({"--max-samples", "4096"}), "--target-error or --time-budget"));
 }
 
+TEST_F(Bake, ThePreviewEndsAsTheFinishedVolume) {
+    EXPECT_EQ(bytes_of({"--preview", "look.probes"}), bytes_of({}));
+    EXPECT_EQ(read("look.probes"), read("bytes.probes"));
+}
+
+TEST_F(Bake, RefusesPreviewsThatCannotBeWritten) {
+    const auto message = [&](const std::string& preview) {
+        return fail({"bake", kCourtyard, "-o", "v.probes", "--preview", preview});
+    };
+    EXPECT_TRUE(contains(message("none/p.probes"), "there is no folder none"));
+    EXPECT_TRUE(contains(message("v.probes"), "v.probes: is another file of this command"));
+    EXPECT_TRUE(
+        contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--preview", "p.png"}), ".probes"));
+    EXPECT_TRUE(contains(
+        misuse({"bake", kCourtyard, "-o", "v.part", "--probes", "0..3", "--preview", "p.probes"}),
+        "--preview"));
+}
+
 TEST_F(Bake, RefusesAMaximumBelowTheFirstRound) {
     EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--target-error", "1%",
                                  "--max-samples", "1000"}),

@@ -133,7 +133,7 @@ class Files(VolumeTest):
         for kind, body in (("scenes", b"nonsense"), ("scenes", glb[:1000]), ("skies", b"nonsense"),
                            ("skies", b"#?RADIANCE\n\nbroken"), ("groups", b"{}"),
                            ("groups", b'{"groups":[{"name":"a","positions":[[0,0,1e999]]}]}'),
-                           ("volumes", b"nonsense"), ("lightmaps", b"nonsense"),
+                           ("volumes", b"nonsense"), ("volumes", glb), ("lightmaps", b"nonsense"),
                            ("reflections", b"nonsense"),
                            ("scenes", b"glTF" + b"\xff" * 100)):
             with self.subTest(kind=kind, body=body[:20]):

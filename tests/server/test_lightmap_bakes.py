@@ -188,13 +188,27 @@ class Previews(LightmapBakeTest):
         self.assertEqual(newest, 1)
         self.assertEqual(server.get(f"/v1/bakes/{bake}/preview").status, 200)
 
-    def test_bakes_of_probes_have_no_preview(self):
+    def test_a_bake_of_probes_shows_the_volume_so_far(self):
         server = self.start()
-        bake = self.begin(server, samples=8192, bounces=4)
-        self.assertNotIn("preview", server.get("/v1/bakes/" + bake).json())
-        problem = self.assert_problem(server.get(f"/v1/bakes/{bake}/preview"), 404, "not_found")
-        self.assertIn("have no preview", problem["detail"])
-        self.assert_problem(server.get("/v1/bakes/none/preview"), 404, "not_found")
+        bake = self.begin(server, target_error=0.0001, max_samples=1 << 24, layers=["sky"])
+        self.assertIn("no preview yet", self.assert_problem(
+            server.get(f"/v1/bakes/{bake}/preview/file"), 404, "not_found")["detail"])
+        answer = self.wait_for_preview(server, bake)
+        path = os.path.join(self.folder, "now.probes")
+        with open(path, "wb") as file:
+            file.write(server.get(f"/v1/bakes/{bake}/preview/file").body)
+        facts = json.loads(self.command("info", path, "--json"))
+        self.assertEqual(facts["probes"], answer["probe_count"])
+        self.assertEqual([layer["name"] for layer in facts["layers"]], ["sky", "rest"])
+        self.assertTrue(facts["is_baked"], facts)
+        for name in ("preview", "preview/scene"):
+            problem = self.assert_problem(server.get(f"/v1/bakes/{bake}/{name}"), 404, "not_found")
+            self.assertIn("only bakes of lightmaps have pages", problem["detail"])
+        server.post(f"/v1/bakes/{bake}/cancel")
+        problem = self.assert_problem(server.get(f"/v1/bakes/{bake}/preview/file"), 404, "not_found")
+        self.assertIn("the bake has ended: cancelled", problem["detail"])
+        self.assert_problem(server.get("/v1/bakes/none/preview/file"), 404, "not_found")
+        self.wait_for_no_folders()
 
     def test_links_that_a_program_leaves_are_not_followed(self):
         server = self.start()

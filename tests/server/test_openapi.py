@@ -112,7 +112,8 @@ class OpenApi(ServiceTest):
                 ("/v1/lightmap-bakes", "LightmapBakeOrder", "texels_per_meter"),
                 ("/v1/reflection-bakes", "ReflectionBakeOrder", "cube_size"),
                 ("/v1/lightmaps/none/export", "ExportLightmapsOrder", "scene"), ("/v1/grid", "GridOrder", "spacing"),
-                ("/v1/lppv", "LppvOrder", "density"), ("/v1/render", "RenderOrder", "camera"),
+                ("/v1/lppv", "LppvOrder", "density"), ("/v1/check-leaks", "CheckLeaksOrder", "places"),
+                ("/v1/render", "RenderOrder", "camera"),
                 ("/v1/relight", "RelightOrder", "weights"),
                 ("/v1/lightmaps/none/relight", "RelightLightmapsOrder", "weights"),
                 ("/v1/tetrahedralize", "TetrahedralizeOrder", "groups")):
@@ -141,7 +142,7 @@ class OpenApi(ServiceTest):
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)
-        for order in ("BakeOrder", "LightmapBakeOrder", "ReflectionBakeOrder", "ExportLightmapsOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
+        for order in ("BakeOrder", "LightmapBakeOrder", "ReflectionBakeOrder", "ExportLightmapsOrder", "GridOrder", "CheckLeaksOrder", "LppvOrder", "RenderOrder", "RelightOrder",
                       "RelightLightmapsOrder"):
             for name, setting in schemas[order]["properties"].items():
                 self.assertTrue(setting["description"], name)

@@ -137,6 +137,26 @@ class Tools(ServiceTest):
         problem = self.assert_problem(wrong, 422, "bad_data")
         self.assertNotIn(self.folder, problem["detail"])
 
+    def test_check_leaks(self):
+        volume = self.bake()
+        order = {"scene": "court", "volume": volume, "places": 40, "samples": 16}
+        report = self.server.post("/v1/check-leaks", {**order, "all_places": True}).json()
+        expected = json.loads(self.command("check-leaks", self.path, "--scene", COURTYARD, "--places", "40", "-s", "16",
+                                           "--all-places", "--json"))
+        for member in ("file", "files"):
+            expected.pop(member, None)
+        self.assertEqual(report, expected)
+        places = report["all_places"]
+        self.assertEqual(len(places), report["places"])
+        mean = sum(place["traced"] for place in places) / len(places)
+        self.assertAlmostEqual(mean / report["mean_light"], 1, places=5)
+        leak = sum(place["through_walls"] for place in places) / len(places) / mean
+        self.assertAlmostEqual(leak, report["through_walls"]["mean"], places=6)
+        self.assertNotIn("all_places", self.server.post("/v1/check-leaks", order).json())
+        self.assert_problem(self.server.post("/v1/check-leaks", {**order, "places": 0}), 400, "invalid_value")
+        self.assert_problem(self.server.post("/v1/check-leaks", {**order, "scene": "none"}), 404, "not_found")
+        self.assert_problem(self.server.post("/v1/check-leaks", {**order, "max_leak": 1}), 400, "unknown_member")
+
     def test_a_tool_that_nobody_waits_for_is_ended(self):
         order = json.dumps(self.order_of_hours(self.server)).encode()
         with socket.create_connection(("127.0.0.1", self.server.port)) as client:
