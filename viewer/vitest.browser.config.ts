@@ -11,5 +11,6 @@ export default defineConfig({
         testTimeout: 2 * kPatience,
         hookTimeout: kPatience,
         expect: {poll: {timeout: kPatience}},
+        retry: 1,  // a browser on a busy machine may break down once
     },
 });

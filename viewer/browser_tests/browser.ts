@@ -52,6 +52,14 @@ export async function ready(page: Page): Promise<void> {
     await page.waitForFunction(() => document.body.dataset.state === 'ready');
 }
 
+/** Waits for a picture at full resolution: pictures are coarse while something changes. */
+export async function drawn(page: Page): Promise<void> {
+    await page.waitForFunction(() => {
+        const {width, clientWidth} = document.querySelector<HTMLCanvasElement>('#view canvas')!;
+        return width >= clientWidth;
+    });
+}
+
 /** What the page itself has in its address: `page.url()` hears of a change only later. */
 export function addressOf(page: Page): Promise<string> {
     return page.evaluate(() => location.href);
@@ -68,18 +76,18 @@ export interface Place {
 }
 
 type Shown = {tetralight: {viewer: {stage: {drawNow(): void; canvas: HTMLCanvasElement;
-    pageFrom(v: unknown): Place}}; query: {object: {ball: {position: unknown}}}}};
+    pageFrom(v: unknown): Place}}; inspect: {object: {ball: {position: unknown}}}}};
 
 /** Where the ball is in the page. */
 export function ballPlace(page: Page): Promise<Place> {
     return page.evaluate(() => {
-        const {viewer, query} = (window as unknown as Shown).tetralight;
-        return viewer.stage.pageFrom(query.object.ball.position);
+        const {viewer, inspect} = (window as unknown as Shown).tetralight;
+        return viewer.stage.pageFrom(inspect.object.ball.position);
     });
 }
 
 export async function canvasMiddle(page: Page): Promise<Place> {
-    const {x, y, width, height} = (await page.locator('canvas').boundingBox())!;
+    const {x, y, width, height} = (await page.locator('#view canvas').boundingBox())!;
     return {x: x + width / 2, y: y + height / 2};
 }
 

@@ -18,7 +18,7 @@ afterAll(async () => {
     await server?.end();
 });
 
-const facts = (page: Page) => page.locator('#panel-groups .facts').first();
+const facts = (page: Page) => page.locator('#panel-edit .facts').first();
 const button = (page: Page, name: string) => page.getByRole('button', {name, exact: true});
 const selection = (page: Page, words: string) => page.getByText(words, {exact: true}).waitFor();
 /** All that names the volume names the one that is shown. */
@@ -30,7 +30,7 @@ async function named(page: Page, name: string, probes: RegExp): Promise<void> {
     await button(page, 'Copy link').click();
     expect(await inLink(page, 'volume')).toBe(await volume.inputValue());
 }
-const edited = (page: Page, words: string | RegExp) => page.locator('#panel-groups .facts', {hasText: words}).waitFor();
+const edited = (page: Page, words: string | RegExp) => page.locator('#panel-edit .facts', {hasText: words}).waitFor();
 /** Nothing but probes, seen from below (green, where the sky behind is blue) at a place that has none yet. */
 const kLawn = '/#hidden=scene,cells&eye=0,-2,24&target=0,3,21&exposure=1';
 
@@ -38,7 +38,7 @@ test('groups are edited, undone, saved and baked again, and the change is seen',
     await ready(page);
     const middle = await canvasMiddle(page);
     const before = await colorAt(page, middle);
-    await page.getByRole('tab', {name: 'Probes'}).click();
+    await page.getByRole('tab', {name: 'Edit'}).click();
     await edited(page, '255 probes in 5 groups, joined by 1 367 tetrahedra');
     await button(page, 'Select all').click();
     await button(page, 'Delete').click();
@@ -57,7 +57,7 @@ test('groups are edited, undone, saved and baked again, and the change is seen',
     await page.getByLabel('Name', {exact: true}).fill('edited');
     await button(page, 'Save').click();
     await page.locator('#status', {hasText: 'Saved as edited.'}).waitFor();
-    await page.getByRole('tab', {name: 'Bakes'}).click();
+    await page.getByRole('tab', {name: 'Bake'}).click();
     await page.locator('select[multiple] option:checked', {hasText: 'edited'}).waitFor({state: 'attached'});
     await page.getByLabel('Name of the volume').fill('after');
     await page.getByLabel('Samples', {exact: true}).fill('32');
@@ -67,7 +67,7 @@ test('groups are edited, undone, saved and baked again, and the change is seen',
     const after = await colorAt(page, middle);
     expect(Math.max(...after.map((channel, i) => Math.abs(channel - before[i])))).toBeGreaterThan(10);
     await named(page, 'after', /256 probes/);
-    await page.getByRole('tab', {name: 'Bakes'}).click();
+    await page.getByRole('tab', {name: 'Bake'}).click();
     await page.locator('.bakes li', {hasText: /^court done/}).getByRole('button', {name: 'Open'}).click();
     await named(page, 'court', /255 probes/);
 }));
@@ -80,9 +80,9 @@ test('nothing of what was joined while editing stays on the server', async () =>
 });
 
 test('probes are chosen by box and click, and moved by handles and keys', () => visit(
-    server.url + '/#tab=groups&hidden=scene,cells&eye=0,60,0.1&target=0,0,0', async page => {
+    server.url + '/#tab=edit&hidden=scene,cells&eye=0,60,0.1&target=0,0,0', async page => {
         await ready(page);
-        const box = (await page.locator('canvas').boundingBox())!;
+        const box = (await page.locator('#view canvas').boundingBox())!;
         await page.keyboard.down('Shift');
         await page.mouse.move(box.x + 1, box.y + 1);
         await page.mouse.down();
@@ -90,13 +90,13 @@ test('probes are chosen by box and click, and moved by handles and keys', () => 
         await page.mouse.up();
         await page.keyboard.up('Shift');
         await page.getByText(/^25\d probes are selected\.$/).waitFor();
-        await page.focus('canvas');
+        await page.focus('#view canvas');
         await page.keyboard.press('Escape');
         await selection(page, 'Nothing is selected.');
 
         const place = await page.evaluate(() => {
-            const {viewer, groups} = (window as any).tetralight;  // eslint-disable-line
-            const {positions} = groups.editor;
+            const {viewer, late} = (window as any).tetralight;  // eslint-disable-line
+            const {positions} = late.edit.value.groups.editor;
             return viewer.stage.pageFrom(viewer.stage.camera.position.clone().fromArray(positions, 0)) as {x: number; y: number};
         });
         await page.mouse.click(place.x, place.y);
@@ -110,6 +110,10 @@ test('probes are chosen by box and click, and moved by handles and keys', () => 
         expect(Number(await x.inputValue())).toBeGreaterThan(start + 0.5);
         await page.keyboard.press('Control+z');
         expect(Number(await x.inputValue())).toBe(start);
+        await page.keyboard.press('f');
+        const target = await page.evaluate(
+            () => (window as any).tetralight.viewer.stage.controls.target.x as number);  // eslint-disable-line
+        expect(target).toBeCloseTo(start, 2);
     }));
 
 /** Takes the handle right of a place, which has to be the x axis's, and drags it. */
@@ -125,7 +129,7 @@ async function dragRight(page: Page, from: {x: number; y: number}): Promise<void
     await page.mouse.up();
 }
 
-test('a generated grid is a preview until it is saved', () => visit(server.url + '/#tab=groups', async page => {
+test('a generated grid is a preview until it is saved', () => visit(server.url + '/#tab=edit', async page => {
     await ready(page);
     await page.getByLabel('Spacing, metres').fill('6');
     await button(page, 'Preview').click();
@@ -136,7 +140,7 @@ test('a generated grid is a preview until it is saved', () => visit(server.url +
 }));
 
 test('no edit is lost in silence', () => visit(
-    server.url + '/#tab=groups&volume=court', async page => {
+    server.url + '/#tab=edit&volume=court', async page => {
         await ready(page);
         const isAskedToStay = () => page.evaluate(() => !dispatchEvent(new Event('beforeunload', {cancelable: true})));
         const preview = page.getByText('This is a preview');
@@ -188,7 +192,7 @@ test('no edit is lost in silence', () => visit(
     }, {refusal: /status of 507/}));
 
 test('groups that are saved while they are joined stay on the server', () => visit(
-    server.url + '/#tab=groups&volume=court', async page => {
+    server.url + '/#tab=edit&volume=court', async page => {
         await ready(page);
         await edited(page, /^255 probes .+ joined by/);
         let isSaved = () => {};
@@ -208,9 +212,10 @@ test('groups that are saved while they are joined stay on the server', () => vis
         expect(groups.map(({name}) => name)).toContain('early');
     }));
 
-test('a bake shows its progress and is cancelled', () => visit(server.url + '/#tab=bakes', async page => {
+test('a bake shows its progress and is cancelled', () => visit(server.url + '/#tab=bake', async page => {
     await ready(page);
     await page.getByLabel('Name of the volume').fill('long');
+    for (const preset of ['production', 'custom']) await page.getByLabel('Preset').selectOption(preset);
     await page.getByLabel('Samples', {exact: true}).fill('1000000');
     await button(page, 'Bake').click();
     const row = page.locator('.bakes li', {hasText: 'long'});

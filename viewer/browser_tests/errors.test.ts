@@ -5,6 +5,7 @@ import {join} from 'node:path';
 
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
+import {readGlbJson, withGlbJson} from '../src/scene/glb';
 import {close, ready} from './browser';
 import {kCourtyard, Server} from './server';
 import {visit} from './visit';
@@ -24,23 +25,23 @@ afterAll(async () => {
 test('a killed server is noticed, and the page recovers when it is back', () => visit(server.url, async page => {
     await ready(page);
     const height = page.getByLabel('Position of the ball, metres y');
-    await page.click('#tab-query');
+    await page.click('#tab-inspect');
     await server.kill();
     await page.getByText('The server does not answer').waitFor();
     // Queries need no server.
-    await page.locator('.answer h2').evaluate(heading => { heading.textContent = 'of before'; });
+    await page.locator('.answer h3').evaluate(heading => { heading.textContent = 'of before'; });
     await height.fill('3');
     await height.press('Tab');
-    await page.locator('.answer h2', {hasText: /^(Hull c|C)ell \d+$/}).waitFor();
+    await page.locator('.answer h3', {hasText: /^(Hull c|C)ell \d+$/}).waitFor();
     await server.start();
     await page.locator('#banner').waitFor({state: 'hidden'});
-    expect(await page.textContent('#status')).toBe('courtyard · court: 255 probes');
+    await page.locator('#status', {hasText: 'courtyard · court: 255 probes'}).waitFor();
 }, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/}));
 
 test('a server that dies while nobody asks it is noticed, and an edit of meanwhile is joined', () => visit(
-    server.url + '/#tab=groups', async page => {
+    server.url + '/#tab=edit', async page => {
         await ready(page);
-        const facts = page.locator('#panel-groups .facts').first();
+        const facts = page.locator('#panel-edit .facts').first();
         await page.getByText(/^255 probes .+ joined by/).waitFor();
         await server.kill();
         await page.getByText('The server does not answer').waitFor();
@@ -51,7 +52,7 @@ test('a server that dies while nobody asks it is noticed, and an edit of meanwhi
         await page.getByText(/^256 probes .+ joined by/).waitFor();
     }, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/}));
 
-test('what was missing is forgiven when one goes on', () => visit(server.url + '/#tab=bakes', async page => {
+test('what was missing is forgiven when one goes on', () => visit(server.url + '/#tab=bake', async page => {
     await ready(page);
     await page.locator('#choose').getByLabel('Scene').selectOption('');
     await page.getByRole('button', {name: 'Bake', exact: true}).click();
@@ -96,11 +97,12 @@ test('a volume that is damaged on the disk is told of when it is chosen, and the
         await server.request('DELETE', `/v1/volumes/${id}`);
     }, {refusal: /status of 4\d\d/}));
 
-test('wrong settings are refused in the server’s words', () => visit(server.url + '/#tab=bakes', async page => {
+test('wrong settings are refused in the server’s words', () => visit(server.url + '/#tab=bake', async page => {
     await ready(page);
+    for (const preset of ['production', 'custom']) await page.getByLabel('Preset').selectOption(preset);
     await page.getByLabel('Bounces', {exact: true}).fill('-1');
     await page.getByRole('button', {name: 'Bake', exact: true}).click();
-    await page.locator('#banner', {hasText: 'bounces'}).waitFor();
+    await page.locator('#banner', {hasText: /^Bounces: /}).waitFor();
     const bounces = page.getByLabel('Bounces', {exact: true});
     expect(await bounces.getAttribute('aria-invalid')).toBe('true');
     expect(await bounces.evaluate(field => field === document.activeElement)).toBe(true);
@@ -111,20 +113,79 @@ test('wrong settings are refused in the server’s words', () => visit(server.ur
     await page.locator('#banner').waitFor({state: 'hidden'});
 }, {refusal: /status of 400/}));
 
+/** The courtyard without its probe groups, as another scene. */
+function bareCourtyard(): ArrayBuffer {
+    const file = readFileSync(kCourtyard);
+    const glb = file.buffer.slice(file.byteOffset, file.byteOffset + file.byteLength) as ArrayBuffer;
+    const json = readGlbJson(glb);
+    for (const node of json.nodes!) {
+        if (node.extras?.light_probe_group !== true) continue;
+        delete node.extras;
+        delete node.mesh;
+    }
+    return withGlbJson(glb, json);
+}
+
+test('a scene that is chosen is in its own light, and one without probe groups is led to the tab Edit', async () => {
+    const {id} = await server.request<{id: string}>('POST', '/v1/scenes?name=bare', bareCourtyard());
+    await visit(server.url, async page => {
+        await ready(page);
+        await page.locator('#choose').getByLabel('Scene').selectOption('');
+        await page.locator('#choose').getByLabel('Scene').selectOption(id);
+        await page.locator('#status', {hasText: /^court.* is closed: it is of another scene\.$/}).waitFor();
+        expect(await page.getByLabel('Probe volume').inputValue()).toBe('');
+        await page.getByRole('tab', {name: 'Bake'}).click();
+        await page.getByText('This scene has no probe groups').waitFor();
+        await page.getByRole('button', {name: 'Bake', exact: true}).click();
+        await page.locator('#banner', {hasText: 'The scene has no probe groups'}).waitFor();
+        await page.getByRole('button', {name: 'Open Edit'}).click();
+        await page.getByRole('heading', {name: 'Generate'}).waitFor();
+        expect(await page.locator('#banner').isHidden()).toBe(true);
+        await page.locator('#choose').getByLabel('Scene').selectOption({label: 'courtyard'});
+        await page.locator('#status', {hasText: /^courtyard · court.*: 255 probes$/}).waitFor();
+    });
+    await server.request('DELETE', `/v1/scenes/${id}`);
+});
+
+test('what was deleted meanwhile is named by its name, and is not in the list any more', () => visit(server.url, async page => {
+    const {id} = await server.request<{id: string}>('POST', '/v1/scenes?name=passing', bareCourtyard());
+    await ready(page);
+    await page.reload();
+    await ready(page);
+    await server.request('DELETE', `/v1/scenes/${id}`);
+    await page.locator('#choose').getByLabel('Scene').selectOption(id);
+    await page.locator('#banner', {hasText: 'there is no such scene: passing (it was deleted)'}).waitFor();
+    await expect.poll(() => page.locator('#choose option', {hasText: 'passing'}).count()).toBe(0);
+}, {refusal: /status of 404/}));
+
+test('an order that the server did not answer is told of until someone has read it', () => visit(server.url + '/#tab=bake', async page => {
+    await ready(page);
+    await page.getByLabel('What to bake').waitFor();
+    await server.kill();
+    await page.getByRole('button', {name: 'Bake', exact: true}).click();
+    const words = page.getByText('The server did not answer the order of a bake');
+    await words.waitFor();
+    await server.start();
+    await page.getByText('The server answers again.').waitFor();
+    expect(await words.isVisible()).toBe(true);
+    await page.getByRole('button', {name: 'Close', exact: true}).click();
+    expect(await page.locator('#banner').isHidden()).toBe(true);
+}, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE|ERR_INCOMPLETE_CHUNKED/}));
+
 test('an empty server says what to do', async () => {
     const other = await new Server().start();
     await visit(other.url, async page => {
         await ready(page);
         expect(await page.textContent('.empty')).toContain('Upload a scene');
-        expect(await page.locator('#panel-query input[type=checkbox]:disabled').count()).toBe(2);
-        await page.getByRole('tab', {name: 'Probes'}).click();
+        expect(await page.locator('#panel-inspect input[type=checkbox]:disabled').count()).toBe(2);
+        await page.getByRole('tab', {name: 'Edit'}).click();
         for (const name of ['Take those of the volume', 'Open', 'Select all', 'Duplicate', 'Delete']) {
             expect(await page.getByRole('button', {name, exact: true}).isDisabled(), name).toBe(true);
         }
         await page.locator('header input[type=file]').setInputFiles(kCourtyard);
         await page.getByText('No volume yet').waitFor();
         await page.getByRole('button', {name: 'bake one'}).click();
-        expect(await page.getByRole('tab', {name: 'Bakes'}).getAttribute('aria-selected')).toBe('true');
+        expect(await page.getByRole('tab', {name: 'Bake'}).getAttribute('aria-selected')).toBe('true');
     });
     await other.end();
 });

@@ -37,11 +37,12 @@ function shown(radiance: number): number {
 }
 
 async function order(page: Page, name: string, settings: Record<string, string>): Promise<void> {
-    await page.getByRole('tab', {name: 'Bakes'}).click();
-    await field(page, 'Bake').selectOption('lightmaps');
+    await page.getByRole('tab', {name: 'Bake'}).click();
+    await field(page, 'What to bake').selectOption('lightmaps');
     await field(page, 'Name of the lightmaps').fill(name);
     await field(page, 'Texels per meter').waitFor({state: 'attached'});
-    for (const details of await page.locator('#panel-bakes details').all()) {
+    await field(page, 'Preset').selectOption('production');
+    for (const details of await page.locator('#panel-bake details').all()) {
         await details.evaluate(one => { (one as HTMLDetailsElement).open = true; });
     }
     for (const [label, value] of Object.entries(settings)) await field(page, label).fill(value);
@@ -49,7 +50,7 @@ async function order(page: Page, name: string, settings: Record<string, string>)
 }
 
 const hasLightmaps = (page: Page) => page.evaluate(
-    () => (window as any).tetralight.viewer.hasLightmaps as boolean);  // eslint-disable-line
+    () => (window as any).tetralight.viewer.lightmaps !== null);  // eslint-disable-line
 
 test('finished lightmaps light the scene as they were baked', () => visit(
     `${server.url}/#scene=${floor}&${kFromAbove}`, async page => {
@@ -76,7 +77,7 @@ test('finished lightmaps light the scene as they were baked', () => visit(
     }));
 
 test('stored lightmaps are opened on their scene', () => visit(
-    `${server.url}/#scene=${court}&tab=bakes&${kFromAbove}`, async page => {
+    `${server.url}/#scene=${court}&tab=bake&${kFromAbove}`, async page => {
         await ready(page);
         await page.locator('.bakes li', {hasText: /^lit done/}).getByRole('button', {name: 'Open'}).click();
         await expect.poll(() => hasLightmaps(page)).toBe(true);
@@ -104,9 +105,9 @@ test('a bake shows texels at the target, and its light on the scene', () => visi
     }));
 
 test('a wrong setting of lightmaps marks its field', () => visit(
-    `${server.url}/#scene=${court}&tab=bakes`, async page => {
+    `${server.url}/#scene=${court}&tab=bake`, async page => {
         await ready(page);
         await order(page, 'wrong', {'Page size': '0'});
-        await page.locator('#banner', {hasText: 'page_size'}).waitFor();
+        await page.locator('#banner', {hasText: /^Page size: /}).waitFor();
         expect(await field(page, 'Page size').getAttribute('aria-invalid')).toBe('true');
     }, {refusal: /status of 400/}));

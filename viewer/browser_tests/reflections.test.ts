@@ -69,8 +69,9 @@ const choose = async (page: Page, name: string) => {
 const inHall = (more: Partial<ProbeSetup> = {}) => probeAt([0, 3.5, 0], [-8, 0, -8], [8, 4, 8], more);
 
 test('a mirror shows the side of the box that its ray hits', () => visit(
-    `${server.url}/#scene=${mirror}&${kFromAbove}`, async page => {
+    `${server.url}/#scene=${mirror}&tab=view&${kFromAbove}`, async page => {
         await store(page, {hall: cubes([inHall()]), far: cubes([{...inHall(), box: null}])});
+        await ready(page);  // a page that is left while it loads says so in the console
         await page.reload();
         await ready(page);
         for (const channel of await floorAt(page, 0)) expect(channel).toBeLessThan(20);  // no light of its own
@@ -89,6 +90,23 @@ test('a mirror shows the side of the box that its ray hits', () => visit(
         await page.getByLabel('Reflections', {exact: true}).check();
         await choose(page, '');
         for (const channel of await floorAt(page, 0)) expect(channel).toBeLessThan(20);
+    }));
+
+test('a mirror ball at a probe shows what its cube holds', () => visit(
+    `${server.url}/#scene=${mirror}&tab=view&${kFromAbove}`, async page => {
+        const place = [0, 1, 0] as [number, number, number];
+        await store(page, {hall: cubes([probeAt(place, [-8, 0, -8], [8, 4, 8])], 0.5)});
+        await ready(page);
+        await page.reload();
+        await ready(page);
+        await choose(page, 'hall');
+        // The floor has half of the ceiling's light; the ball, seen from above, has all of it.
+        const middle = () => floorAt(page, 0);
+        for (const channel of await middle()) expect(Math.abs(channel - shown(0.5 * kAlbedo))).toBeLessThan(4);
+        await page.getByLabel('Mirror balls at the reflection probes').check();
+        for (const channel of await middle()) expect(Math.abs(channel - shown(0.5))).toBeLessThan(4);
+        await page.getByLabel('Mirror balls at the reflection probes').uncheck();
+        for (const channel of await middle()) expect(Math.abs(channel - shown(0.5 * kAlbedo))).toBeLessThan(4);
     }));
 
 test('each pixel blends the probes by their influence', () => visit(
@@ -125,23 +143,25 @@ test('spheres of metal in the mesh ball mirror the cubes', async () => {
     const scene = await server.uploadCourtyard();
     const volume = await server.bake({scene, samples: 16});
     const blue = reflectionFile([{...inHall(), box: null}], [8], 1, () => [0, 0, 0.7]);
-    const link = `scene=${scene}&volume=${volume}&hidden=scene,probes,cells&tab=query&object=2.6,1.3,6` +
+    const link = `scene=${scene}&volume=${volume}&hidden=scene,probes,cells&tab=inspect&object=2.6,1.3,6` +
         '&eye=2.6,1.3,12&target=2.6,1.3,6&exposure=1';
     await visit(`${server.url}/#${link}`, async page => {
         await store(page, {blue});
+        await ready(page);
         await page.reload();
         await ready(page);
         await page.getByLabel('1023 instances, one query a frame').check();
         expect(await blueShare(page)).toBeLessThan(0.01);
-        await page.evaluate(() => (window as any).tetralight.viewer.openReflections('blue'));  // eslint-disable-line
+        await page.evaluate(() => (window as any).tetralight.viewer.open.reflections('blue'));  // eslint-disable-line
         await expect.poll(() => blueShare(page)).toBeGreaterThan(0.03);
     });
 });
 
 test('stored files of reflection probes are baked, listed and opened', () => visit(
-    `${server.url}/#scene=${mirror}&tab=bakes&${kFromAbove}`, async page => {
+    `${server.url}/#scene=${mirror}&tab=bake&${kFromAbove}`, async page => {
         await server.request('POST', '/v1/reflection-bakes', JSON.stringify(
             {scene: mirror, name: 'baked', box: [-2, -0.1, -2, 2, 2, 2], sky: 1, samples: 16, cube_size: 16}));
+        await ready(page);
         await page.reload();
         await ready(page);
         const row = page.locator('.bakes li', {hasText: /^baked done/});

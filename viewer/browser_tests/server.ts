@@ -17,10 +17,11 @@ export class Server {
     private port = 0;
 
     constructor(private readonly token = '',
-                readonly folder = mkdtempSync(join(tmpdir(), 'tetralight_viewer_'))) {}
+                readonly folder = mkdtempSync(join(tmpdir(), 'tetralight_viewer_')),
+                private readonly viewer = kViewer) {}
 
     async start(): Promise<this> {
-        const options = ['serve', '--data', join(this.folder, 'data'), '--viewer', kViewer,
+        const options = ['serve', '--data', join(this.folder, 'data'), '--viewer', this.viewer,
                          '--listen', `127.0.0.1:${this.port}`, '--log', 'error'];
         const env = {...process.env, ...(this.token === '' ? {} : {TETRALIGHT_TOKEN: this.token})};
         const child = spawn(kCommand, options, {env, stdio: ['ignore', 'pipe', 'inherit']});

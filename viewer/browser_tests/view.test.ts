@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page shows, and how it is told to.
+import {readFileSync} from 'node:fs';
+
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
-import {middleGreyExposure} from '../src/exposure';
+import {meteredExposure} from '../src/view/exposure';
 import {addressOf, close, colorAt, inLink, open, ready} from './browser';
 import {Server} from './server';
 import {visit} from './visit';
@@ -26,32 +28,45 @@ test('the page shows the newest volume with the scene of its bake', () => visit(
     expect(await page.textContent('#panel-view .facts')).toBe('255 probes, 1 367 tetrahedra');
 }));
 
+test('the view is saved as a picture', () => visit(server.url, async page => {
+    await ready(page);
+    const waiting = page.waitForEvent('download');
+    await page.getByRole('button', {name: 'Save picture'}).click();
+    const saved = await waiting;
+    expect(saved.suggestedFilename()).toBe('courtyard.png');
+    const png = readFileSync(await saved.path());
+    const size = await page.locator('#view canvas').evaluate(({clientWidth, clientHeight}) => [clientWidth, clientHeight]);
+    expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual(size);
+    // A picture of one color is a fiftieth of this.
+    expect(png.length).toBeGreaterThan(20_000);
+}));
+
 test('a link holds the view', () => visit(server.url, async page => {
     await ready(page);
-    await page.click('#tab-query');
+    await page.click('#tab-inspect');
     const place = page.getByLabel('Position of the ball, metres x');
     await place.fill('4.5');
     await place.press('Tab');
-    await page.focus('canvas');
+    await page.focus('#view canvas');
     await page.keyboard.press('ArrowLeft');
     await page.getByRole('button', {name: 'Copy link'}).click();
     expect(await inLink(page, 'volume')).toBe(volume);
     const second = await open(await addressOf(page));
-    expect(await second.getByRole('tab', {name: 'Query'}).getAttribute('aria-selected')).toBe('true');
+    expect(await second.getByRole('tab', {name: 'Inspect'}).getAttribute('aria-selected')).toBe('true');
     expect(await second.getByLabel('Position of the ball, metres x').inputValue()).toBe('4.5');
     await second.getByRole('button', {name: 'Copy link'}).click();
     const before = await inLink(second, 'eye');
     expect(before).toBe(await inLink(page, 'eye'));
-    await second.focus('canvas');
+    await second.focus('#view canvas');
     await second.keyboard.press('ArrowUp');
     await expect.poll(() => inLink(second, 'eye')).not.toBe(before);  // without being asked
     await second.context().close();
 }));
 
-test('the exposure is that of the light itself, and needs no shader of its own', () => visit(server.url, async page => {
+test('the exposure is that of the light itself, and needs no shader of its own', () => visit(server.url + '/#tab=view', async page => {
     await ready(page);
-    const {found, light, programs} = await page.evaluate(() => {
-        const {stage, lines} = (window as any).tetralight.viewer;  // eslint-disable-line
+    const {found, light, programs} = await page.evaluate(async () => {
+        const {stage} = (window as any).tetralight.viewer;  // eslint-disable-line
         const {renderer} = stage;
         const setTarget = renderer.setRenderTarget;
         let Target: any;  // eslint-disable-line
@@ -61,24 +76,26 @@ test('the exposure is that of the light itself, and needs no shader of its own',
         };
         stage.drawNow();
         const programs = [renderer.info.programs.length];
-        stage.exposeItself();
+        await stage.exposeItself();
         programs.push(renderer.info.programs.length);
-        lines.group.visible = false;  // no light of the scene
-        const size = 64;
+        stage.scene.traverse((object: any) => {  // eslint-disable-line
+            if (object.userData.isMark || object.material?.toneMapped === false) object.visible = false;
+        });
+        const [width, height] = [64, 36];
         const kFloat = 1015;
-        setTarget(new Target(size, size, {type: kFloat}));  // linear, not tone-mapped
+        setTarget(new Target(width, height, {type: kFloat}));  // linear, not tone-mapped
         stage.drawNow();
-        const pixels = new Float32Array(4 * size * size);
-        renderer.readRenderTargetPixels(renderer.getRenderTarget(), 0, 0, size, size, pixels);
+        const pixels = new Float32Array(4 * width * height);
+        renderer.readRenderTargetPixels(renderer.getRenderTarget(), 0, 0, width, height, pixels);
         setTarget(null);
         return {found: stage.exposure, light: [...pixels], programs};
     });
     expect(programs[1]).toBe(programs[0]);
     // Panes are blended after the tone mapping.
-    expect(Math.abs(found / middleGreyExposure(light) - 1)).toBeLessThan(0.02);
+    expect(Math.abs(found / meteredExposure(light)! - 1)).toBeLessThan(0.02);
 }));
 
-test('the weight of a layer changes the light of probes at once', () => visit(server.url, async page => {
+test('the weight of a layer changes the light of probes at once', () => visit(server.url + '/#tab=view', async page => {
     await ready(page);
     const light = () => page.evaluate(() => {
         const {viewer} = (window as any).tetralight;  // eslint-disable-line
@@ -94,11 +111,11 @@ test('the weight of a layer changes the light of probes at once', () => visit(se
     expect(await addressOf(page)).toContain('w.sun=0');
 }));
 
-test('without a weight left, scene and sky are black', () => visit(server.url, async page => {
+test('without a weight left, scene and sky are black', () => visit(server.url + '/#tab=view', async page => {
     await ready(page);
-    const brightest = () => page.evaluate(() => {
+    const brightest = () => page.evaluate(async () => {
         const {stage} = (window as any).tetralight.viewer;  // eslint-disable-line
-        return Math.max(...stage.light(64).filter((_: number, i: number) => i % 4 < 3));
+        return Math.max(...(await stage.light()).filter((_: number, i: number) => i % 4 < 3));
     });
     const before = await brightest();
     for (const name of await page.locator('#panel-view input[type=range]').all()) {
@@ -108,7 +125,7 @@ test('without a weight left, scene and sky are black', () => visit(server.url, a
     expect(await brightest()).toBeLessThan(1e-3);
 }));
 
-test('light that is stored is what the page names', () => visit(server.url, async page => {
+test('light that is stored is what the page names', () => visit(server.url + '/#tab=view', async page => {
     await ready(page);
     await page.getByLabel('sun', {exact: true}).fill('0.5');
     await page.getByRole('button', {name: 'Keep as a volume'}).click();
@@ -127,14 +144,14 @@ test('a click in the table of health selects the probe in 3D', () => visit(serve
     const name = await first.getAttribute('aria-label');
     await first.click();
     const selected = await page.evaluate(
-        () => (window as unknown as {tetralight: {viewer: {selectedProbe: number}}}).tetralight.viewer.selectedProbe);
+        () => (window as unknown as {tetralight: {viewer: {marks: {selectedProbe: number}}}}).tetralight.viewer.marks.selectedProbe);
     expect(name).toBe(`Show probe ${selected}`);
     expect(await page.locator('tr[aria-current=true] button').getAttribute('aria-label')).toBe(name);
     const place = await page.evaluate(() => {
         const {viewer} = (window as any).tetralight;  // eslint-disable-line
-        const {stage, marker} = viewer;
-        const right = marker.position.clone().set(1, 0, 0).applyQuaternion(stage.camera.quaternion);
-        return stage.pageFrom(marker.position.clone().addScaledVector(right, 1.6 * marker.scale.x)) as {x: number; y: number};
+        const {stage, marks: {ring}} = viewer;
+        const right = ring.position.clone().set(1, 0, 0).applyQuaternion(stage.camera.quaternion);
+        return stage.pageFrom(ring.position.clone().addScaledVector(right, 1.6 * ring.scale.x)) as {x: number; y: number};
     });
     const [red, green, blue] = await colorAt(page, place);
     expect(red).toBeGreaterThan(200);

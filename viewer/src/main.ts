@@ -2,22 +2,29 @@
 // The page: a bar to choose scene and volume, the view, and tabs of controls.
 import * as three from 'three';
 
-import {Alerts} from './alerts';
-import {Api, Kind, messageOf, StoredFile, titleOf, Unreachable} from './api';
-import {BakesPanel} from './bakes_panel';
-import {counted} from './colors';
-import {button, element} from './dom';
-import {GroupsPanel} from './groups_panel';
-import {healthPanel} from './health_panel';
-import {Pointer} from './pointer';
-import {QueryPanel} from './query_panel';
-import {scenePanel} from './scene_panel';
-import {Stage} from './stage';
-import {StatusLine} from './status_line';
-import {Tabs} from './tabs';
-import {TokenDialog} from './token_dialog';
-import {fromLink, toLink} from './view_link';
-import {Part, ProbeColor, Viewer} from './viewer';
+import type {BakesPanel} from './bake/bakes_panel';
+import {ComparePanel} from './compare/compare_panel';
+import {Comparison} from './compare/comparison';
+import type {LeakPanel} from './compare/leak_panel';
+import type {EditPanel} from './edit/edit_panel';
+import {InspectPanel} from './inspect/inspect_panel';
+import {Alerts} from './page/alerts';
+import {Api, messageOf, namesOf} from './page/api';
+import {counted} from './page/colors';
+import {button, element} from './page/dom';
+import {download} from './page/download';
+import {LatePart} from './page/late_part';
+import {StatusLine} from './page/status_line';
+import {Tabs} from './page/tabs';
+import {TokenDialog} from './page/token_dialog';
+import {fromLink} from './page/view_link';
+import {viewTools} from './page/view_tools';
+import {linkOf, openLink} from './page_link';
+import {FileBar, StoredFiles} from './view/file_bar';
+import {Pointer} from './view/pointer';
+import {scenePanel} from './view/scene_panel';
+import {Stage} from './view/stage';
+import {Viewer} from './view/viewer';
 
 const byId = (id: string) => document.getElementById(id)!;
 const alerts = new Alerts(byId('banner'));
@@ -25,20 +32,22 @@ const alerts = new Alerts(byId('banner'));
 class Page {
     private readonly api: Api;
     readonly viewer: Viewer;
-    readonly query: QueryPanel;
-    readonly groups: GroupsPanel;
-    private readonly bakes: BakesPanel;
-    private readonly tabs: Tabs;
+    readonly inspect: InspectPanel;
+    readonly comparison: Comparison;
+    private readonly compare: ComparePanel;
+    readonly late = {
+        edit: new LatePart(() => this.makeEdit()), leaks: new LatePart(() => this.makeLeaks()),
+        bakes: new LatePart(() => this.makeBakes()), health: new LatePart(() => this.makeHealth()),
+    };
+    private readonly places = {edit: element('div'), leaks: element('div'), bakes: element('div'), health: element('div')};
+    readonly tabs: Tabs;
     private readonly token = new TokenDialog(token => {
         this.api.token = token;
         void this.load();
     });
-    private readonly scenes = element('select', {'aria-label': 'Scene', change: () => this.choose('scenes')});
-    private readonly volumes = element('select', {'aria-label': 'Probe volume', change: () => this.choose('volumes')});
-    private readonly next = element('p', {class: 'next', hidden: true}, 'No volume yet: ',
-                                    button('bake one', () => this.tabs.open('bakes'), {class: 'link'}));
-    private readonly empty = element('div', {class: 'empty', hidden: true});
     private readonly status = new StatusLine(byId('status'), () => this.whatIsShown());
+    private readonly files: FileBar;
+    private readonly pointer: Pointer;
     private isLoaded = false;
     private link = fromLink(location.hash);
 
@@ -46,13 +55,13 @@ class Page {
         this.api = new Api({
             lost: () => {
                 this.status.say('No connection.');
-                alerts.show('The server does not answer. This page tries again every second.');
+                alerts.show('The server does not answer. This page tries again every second.', 'connection');
             },
             found: () => {
-                alerts.clear();
+                alerts.succeed('connection');
                 this.status.tell('The server answers again.');
                 void this.load();
-                this.groups.editor.askAgain();
+                this.late.edit.value?.groups.editor.joined.askAgain();
             },
             unauthorized: () => {
                 this.status.say('The server needs a token.');
@@ -60,196 +69,161 @@ class Page {
             },
         });
         const stage = new Stage(byId('view'));
-        stage.parent.append(this.empty, this.next);
         this.viewer = new Viewer(this.api, stage, alerts, news => this.status.tell(news));
-        this.query = new QueryPanel(this.viewer);
-        this.bakes = new BakesPanel(this.viewer, () => void alerts.attempt('list', () => this.list()));
-        this.groups = new GroupsPanel(this.viewer, file => this.bakes.useGroups(file.id));
-        const pointer = new Pointer(stage);
+        this.inspect = new InspectPanel(this.viewer);
+        this.comparison = new Comparison(this.viewer);
+        this.compare = new ComparePanel(this.viewer, this.comparison, this.places.leaks);
+        this.files = new FileBar(this.viewer, this.status, {
+            listed: ({volumes, reflections}) => {
+                this.viewer.reflections.setFiles(reflections);
+                this.compare.setVolumes(volumes);
+            },
+            opened: () => this.followShown(),
+            openGroups: async id => (await this.late.edit.get()).groups.open(id),
+            openBakeTab: () => this.tabs.open('bake'),
+        });
+        this.pointer = new Pointer(stage);
+        stage.parent.append(viewTools(stage.canvas, {
+            frameSelection: () => this.tabs.current === 'edit' ? this.late.edit.value?.frame() : this.inspect.frame(),
+            frameAll: () => stage.frame(this.viewer.box.getBoundingSphere(new three.Sphere()), 0.9),
+            savePicture: () => stage.picture(picture => download(`${this.viewer.sceneFile?.name || 'tetralight'}.png`, picture, 'image/png')),
+        }));
         this.tabs = new Tabs([
             {id: 'view', title: 'View', panel: scenePanel(this.viewer)},
-            {id: 'query', title: 'Query', panel: this.query.element},
-            {id: 'groups', title: 'Probes', panel: this.groups.element},
-            {id: 'bakes', title: 'Bakes', panel: this.bakes.element},
-            {id: 'health', title: 'Health', panel: healthPanel(this.viewer)},
-        ], id => {
-            pointer.use = id === 'groups' ? this.groups.pointer : this.query.pointer;
-            this.viewer.gizmo.detach();
-            this.groups.isActive = id === 'groups';
-            this.viewer.isEditing = id === 'groups';
-            if (id === 'bakes') void alerts.attempt('list', () => this.bakes.refresh());
-            alerts.forgive();
-        });
+            {id: 'inspect', title: 'Inspect', panel: this.inspect.element},
+            {id: 'compare', title: 'Compare', panel: this.compare.element},
+            {id: 'edit', title: 'Edit', panel: this.places.edit},
+            {id: 'bake', title: 'Bake', panel: this.places.bakes},
+            {id: 'health', title: 'Health', panel: this.places.health},
+        ], 'inspect', id => this.openTab(id));
         byId('panel').append(this.tabs.element);
-        byId('choose').append(this.scenes, this.volumes, this.uploadButton(),
-                              button('Copy link', () => void this.copyLink()));
+        byId('choose').append(...this.files.elements, button('Copy link', () => void this.copyLink()));
+        this.followChanges();
+        void this.api.attend();
+    }
+
+    /** The tab Edit has the view for itself. */
+    private openTab(id: string): void {
+        const isEdit = id === 'edit';
+        const {edit, leaks, bakes, health} = this.late;
+        if (isEdit) void alerts.attempt('open', () => edit.get());
+        if (id === 'compare') void alerts.attempt('open', () => leaks.get());
+        if (id === 'health') void alerts.attempt('open', () => health.get());
+        this.pointer.use = isEdit ? edit.value?.pointer ?? {} : this.inspect.pointer;
+        this.viewer.gizmo.detach();
+        if (edit.value !== null) edit.value.isActive = isEdit;
+        this.viewer.isEditing = isEdit;
+        this.inspect.isActive = !isEdit;
+        if (leaks.value !== null) leaks.value.isActive = id === 'compare';
+        this.comparison.rest(isEdit);
+        if (id === 'bake') void alerts.attempt('list', () => bakes.get().then(panel => panel.refresh()));
+        if (id === 'compare') void alerts.attempt('list', () => this.compare.open());
+        alerts.forgive();
+    }
+
+    private async makeEdit(): Promise<EditPanel> {
+        const {EditPanel} = await import('./edit/edit_panel');
+        const edit = new EditPanel(this.viewer, file => void alerts.attempt('list', async () => (await this.late.bakes.get()).useGroups(file.id)),
+                                   () => void alerts.attempt('list', () => this.files.list().then(() => this.keepLink())));
+        this.places.edit.append(edit.element);
+        if (this.tabs.current === 'edit') {
+            this.pointer.use = edit.pointer;
+            edit.isActive = true;
+        }
+        return edit;
+    }
+
+    private async makeLeaks(): Promise<LeakPanel> {
+        const {LeakPanel} = await import('./compare/leak_panel');
+        const leaks = new LeakPanel(this.viewer, () => void this.comparison.set({mode: 'off'}));
+        leaks.isActive = this.tabs.current === 'compare';
+        this.places.leaks.append(leaks.element);
+        return leaks;
+    }
+
+    private async makeBakes(): Promise<BakesPanel> {
+        const {BakesPanel} = await import('./bake/bakes_panel');
+        const bakes = new BakesPanel(this.viewer, {
+            finished: () => void alerts.attempt('list', () => this.files.list()),
+            openEditTab: () => this.tabs.open('edit'),
+        });
+        this.places.bakes.append(bakes.element);
+        return bakes;
+    }
+
+    private async makeHealth(): Promise<HTMLElement> {
+        const {healthPanel} = await import('./inspect/health_panel');
+        const health = healthPanel(this.viewer);
+        this.places.health.append(health);
+        return health;
+    }
+
+    /** The address follows the page, and the page the address. */
+    private followChanges(): void {
+        const {stage} = this.viewer;
         stage.controls.addEventListener('end', () => this.keepLink());
         addEventListener('pagehide', () => this.keepLink());
         byId('panel').addEventListener('change', () => this.keepLink());
         stage.canvas.addEventListener('pointerup', () => setTimeout(() => this.keepLink()));
         addEventListener('hashchange', () => {
-            if (location.hash === this.linkNow()) return;
+            if (location.hash === linkOf(this)) return;
             this.link = fromLink(location.hash);
             this.isLoaded = false;
             void this.load();
         });
-        this.acceptDrops(stage.parent);
         this.viewer.onChange(() => this.followShown());
-        this.viewer.onReflections(() => this.keepLink());
-        void this.api.attend();
+        this.viewer.reflections.onChange(() => this.keepLink());
+        this.comparison.onChange(() => this.keepLink());
     }
 
     /** Lists what there is; the first time, opens what the link says, or else the newest. */
     async load(): Promise<void> {
         await alerts.attempt('list', async () => {
-            const [scenes, volumes] = await this.list();
-            if (!this.isLoaded) await this.openLinked(scenes, volumes);
+            const listed = this.files.list();
+            const opened = this.isLoaded ? null : this.viewer.stage.whileLoading(() => this.openLinked(listed));
+            await Promise.all([listed, opened]);
+            await Promise.all(Object.values(this.late).map(part => part.settled()));
             this.isLoaded = true;
             this.keepLink();
-            if (this.tabs.current === 'bakes') await this.bakes.refresh();
-            this.status.sayState();
+            const bakes = this.late.bakes.value;
+            if (this.tabs.current === 'bake' || bakes?.hasWork) await bakes?.refresh();
+            this.status.follow();
         });
         document.body.dataset.state = 'ready';
     }
 
-    private async list(): Promise<[StoredFile[], StoredFile[]]> {
-        const [scenes, volumes, reflections] = await Promise.all(
-            [this.api.list('scenes'), this.api.list('volumes'), this.api.list('reflections')]);
-        fill(this.scenes, 'Scene…', scenes);
-        fill(this.volumes, 'Volume…', volumes);
-        this.selectShown();
-        this.viewer.setReflectionFiles(reflections);
-        this.showEmpty(scenes.length, volumes.length);
-        return [scenes, volumes];
-    }
-
-    private async openLinked(scenes: StoredFile[], volumes: StoredFile[]): Promise<void> {
-        const {link, viewer} = this;
-        const ready = (files: StoredFile[]) => files.find(file => file.state === 'ready')?.id;
-        for (const part of link.hidden ?? []) viewer.show(part as Part, false);
-        if (link.color !== undefined) viewer.color = link.color as ProbeColor;
-        const volume = link.volume ?? ready(volumes);
-        if (volume !== undefined) await alerts.attempt('open', () => viewer.openVolume(volume, link.weights));
-        const scene = link.scene ?? (viewer.sceneFile === null ? ready(scenes) : undefined);
-        if (scene !== undefined) await viewer.openScene(scene);
-        const {reflections} = link;
-        if (reflections !== undefined) await alerts.attempt('open', () => viewer.openReflections(reflections));
-        if (link.eye !== undefined && link.target !== undefined) viewer.stage.look(link.eye, link.target);
-        this.expose(link.exposure);
-        if (link.object !== undefined) this.query.moveTo(new three.Vector3(...link.object));
-        if (link.tab !== undefined) this.tabs.open(link.tab);
-    }
-
-    private expose(exposure?: number): void {
-        const {stage} = this.viewer;
-        if (exposure === undefined) stage.exposeItself();
-        else stage.exposure = exposure;
-        stage.exposed();
-    }
-
-    private choose(kind: 'scenes' | 'volumes'): void {
-        const id = (kind === 'scenes' ? this.scenes : this.volumes).value;
-        const open = async () => {
-            this.status.say('Loading…');
-            if (kind === 'scenes') await (id === '' ? this.viewer.closeScene() : this.viewer.openScene(id));
-            else await (id === '' ? this.viewer.closeVolume() : this.viewer.openVolume(id));
-            if (kind === 'scenes') this.expose();
-        };
-        void alerts.attempt('open', open).finally(() => {
-            this.followShown();
-            this.status.sayState();
+    /** While the lists are on their way. */
+    private openLinked(listed: Promise<StoredFiles>): Promise<void> {
+        return openLink(this, this.link, {
+            newest: async kind => (await listed)[kind].find(file => file.state === 'ready')?.id,
+            way: {text: 'Open the newest', go: () => this.openNewest()},
         });
+    }
+
+    /** Without the link. */
+    private openNewest(): void {
+        this.link = {};
+        this.isLoaded = false;
+        void this.load();
     }
 
     /** All that names what is shown: both choices, the status line, the address. */
     private followShown(): void {
-        this.selectShown();
+        this.files.follow();
         this.status.follow();
         this.keepLink();
     }
 
-    private selectShown(): void {
-        choose(this.scenes, this.viewer.sceneFile);
-        choose(this.volumes, this.viewer.volume?.file ?? null);
-    }
-
     private whatIsShown(): string {
-        const {volume, sceneFile} = this.viewer;
-        const words = [sceneFile === null ? '' : nameOf(sceneFile),
-                       volume === null ? '' : `${nameOf(volume.file)}: ${counted(volume.probes.probeCount, 'probe')}`];
+        const {volume, sceneFile, bake} = this.viewer;
+        const words = [sceneFile === null ? '' : namesOf(sceneFile),
+                       volume === null ? '' : `${namesOf(volume.file)}: ${counted(volume.probes.probeCount, 'probe')}`,
+                       volume !== null && sceneFile !== null && bake === null ? 'not known to be of this scene' : ''];
         return words.filter(word => word !== '').join(' · ') || 'Nothing is open.';
     }
 
-    private showEmpty(sceneCount: number, volumeCount: number): void {
-        this.next.hidden = sceneCount === 0 || volumeCount > 0;
-        this.empty.hidden = sceneCount > 0 || volumeCount > 0;
-        this.empty.replaceChildren(
-            element('h2', {}, 'No scene or volume yet'),
-            element('p', {}, 'Upload a scene (a binary glTF file, .glb) and bake it in the tab Bakes, or upload ' +
-                    'a baked volume (.probes). Files can be dropped here, too.'),
-            this.uploadButton());
-    }
-
-    private uploadButton(): HTMLElement {
-        const input = element('input', {
-            type: 'file', accept: '.glb,.probes,.json,.hdr,.exr,.ktx2', multiple: true, class: 'hidden',
-            'aria-label': 'Upload files', tabindex: -1,
-            change: () => void this.upload([...input.files!]).finally(() => { input.value = ''; }),
-        });
-        return element('span', {}, button('Upload…', () => input.click()), input);
-    }
-
-    private async upload(files: File[]): Promise<void> {
-        const kinds: Record<string, Kind> = {glb: 'scenes', probes: 'volumes', json: 'groups', hdr: 'skies', exr: 'skies',
-                                             ktx2: 'reflections'};
-        alerts.succeed('upload');
-        for (const file of files) {
-            const dot = file.name.lastIndexOf('.');
-            const kind = kinds[file.name.slice(dot + 1).toLowerCase()];
-            try {
-                if (kind === undefined) throw new Error('is not a .glb, .probes, .json, .hdr, .exr or .ktx2 file');
-                this.status.say(`Uploading ${file.name}…`);
-                const stored = (await this.api.upload(kind, file, file.name.slice(0, dot))).file;
-                if (kind === 'scenes') await this.viewer.openScene(stored.id).then(() => this.expose());
-                if (kind === 'volumes') await this.viewer.openVolume(stored.id);
-                if (kind === 'reflections') await this.viewer.openReflections(stored.id);
-                if (kind === 'groups') await this.groups.open(stored.id);
-            } catch (error) {
-                alerts.report('upload', error instanceof Unreachable ? error : `${file.name}: ${messageOf(error)}`);
-            }
-        }
-        await alerts.attempt('list', () => this.list());
-        this.keepLink();
-        this.status.sayState();
-    }
-
-    private acceptDrops(view: HTMLElement): void {
-        view.addEventListener('dragover', event => event.preventDefault());
-        view.addEventListener('drop', event => {
-            event.preventDefault();
-            void this.upload([...event.dataTransfer!.files]);
-        });
-    }
-
-    private linkNow(): string {
-        const {viewer} = this;
-        return toLink({
-            volume: viewer.volume?.file.id,
-            scene: viewer.sceneFile?.id,
-            reflections: viewer.reflectionFile?.id,
-            tab: this.tabs.current,
-            eye: viewer.stage.camera.position.toArray(),
-            target: viewer.stage.controls.target.toArray(),
-            object: viewer.volume === null ? undefined : this.query.position,
-            exposure: Number(viewer.stage.exposure.toPrecision(4)),
-            hidden: [...viewer.hidden],
-            color: viewer.color === 'light' ? '' : viewer.color,
-            weights: viewer.changedWeights,
-        });
-    }
-
     private keepLink(): void {
-        if (this.isLoaded) history.replaceState(null, '', this.linkNow());
+        if (this.isLoaded) history.replaceState(null, '', linkOf(this));
     }
 
     private async copyLink(): Promise<void> {
@@ -261,22 +235,6 @@ class Page {
             this.status.tell('The link is in the address bar.');
         }
     }
-}
-
-const nameOf = (file: StoredFile) => titleOf({name: file.names.join(', '), id: file.id});
-
-function fill(choice: HTMLSelectElement, title: string, files: StoredFile[]): void {
-    choice.replaceChildren(element('option', {value: ''}, title), ...files.map(option));
-}
-
-function option(file: StoredFile): HTMLOptionElement {
-    return element('option', {value: file.id}, nameOf(file) + (file.state === 'ready' ? '' : ' (damaged)'));
-}
-
-/** What is shown may be newer than the list. */
-function choose(choice: HTMLSelectElement, file: StoredFile | null): void {
-    if (file !== null && ![...choice.options].some(({value}) => value === file.id)) choice.append(option(file));
-    choice.value = file?.id ?? '';
 }
 
 try {
