@@ -1,89 +1,153 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/gallery.md, docs/walls.md and some of the README: make_gallery.sh TETRALIGHT FOLDER
+# Renders the pictures of docs/gallery.md and some of docs/walls.md, docs/bake.md and docs/scenes.md:
+#   make_gallery.sh TETRALIGHT FOLDER [--keep WORK] [--sponza SPONZA.glb]
+# --keep: folder of the bakes and of the pictures as PNG; the next run makes only what is missing in it.
+# --sponza: the pictures of that scene too.
+# shellcheck disable=SC2054  # values of options have commas
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tetralight=$(realpath "$1") out=$2
-scene=examples/scenes/courtyard.glb
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-mkdir -p "$out"
-
-bake() { "$tetralight" bake --quiet "$@"; }
-size=(--width 512 --height 288 --antialias 2)
-render() { # NAME VOLUME ...
-    "$tetralight" render "${gallery_scene:-$scene}" "$work/$2" -o "$out/$1.png" --renderer gl "${size[@]}" "${@:3}"
-}
-ball() { # NAME VOLUME ...
-    "$tetralight" meshball "$work/$2" -o "$out/$1.png" --scene "$scene" --renderer gl "${size[@]}" \
-        --specular --exposure 0.8 "${@:3}"
-}
-
-bake "$scene" -o "$work/plain.probes" --samples 4096
-"$tetralight" grid "$scene" -o "$work/ball.json" --spacing 0.3 --min 4.2,0.15,-2.6 --max 8.2,3.6,1.8 --quiet
-bake "$scene" -g "$work/ball.json" -o "$work/masked.probes" --samples 512 --mixed-lighting shadowmask
-bake "$scene" -o "$work/layers.probes" --samples 2048 --layers sun,emission,transfer
-
-# Inside the house, without and with probes.
-render gallery_interior_off plain.probes --camera camera_interior --probes none --exposure 1.6
-render gallery_interior plain.probes --camera camera_interior --exposure 1.6
-# Outside: nothing has probes, still things have them, all have them.
-render gallery_court_off plain.probes --camera camera --probes none --exposure 0.9
-render gallery_movers_off plain.probes --camera camera --probes still --exposure 0.9
-render gallery_movers plain.probes --camera camera --exposure 0.9
-# Long boxes by one place each and by grids, and the points of these.
-beams=(--eye 8.5,4.2,11.5 --target 1.6,1.6,0.6 --fov 46 --exposure 1.1)
-render gallery_beams_one plain.probes "${beams[@]}" --probes one
-render gallery_beams_lppv plain.probes "${beams[@]}"
-render gallery_beams_points plain.probes "${beams[@]}" --show lppv
-# The ground's green on what stands over it.
-render gallery_bounce plain.probes --eye 3.4,0.35,8.6 --target 1.9,0.75,5.4 --fov 30 --exposure 1.1
-# Boxes that shine, with their light in the probes and without.
-glow=(--eye 8,2.4,1.5 --target 4.5,0.6,-1.2 --fov 50 --exposure 0.7)
-render gallery_emission layers.probes "${glow[@]}"
-python3 examples/scenes/make_courtyard.py "$work/unbaked.glb" --unbaked-emission >/dev/null
-bake "$work/unbaked.glb" -o "$work/unbaked.probes" --samples 4096
-gallery_scene=$work/unbaked.glb render gallery_emission_off unbaked.probes "${glow[@]}"
-# A roof that lets half of the light through, and one with holes.
-render gallery_roofs plain.probes --eye -13.5,4.6,9.5 --target -7,0.9,3.7 --fov 44 --exposure 0.9
-# The mesh ball in three ways.
-place=(--center 4.5,3,7 --radius 2.8 --eye 0,4.5,15.5 --target 4,2.6,6.5)
-ball gallery_ball_probes plain.probes "${place[@]}"
-ball gallery_ball_lppv plain.probes "${place[@]}" --lppv
-ball gallery_ball_off plain.probes "${place[@]}" --off
-# The shadow of the house on the mesh ball: from occlusion probes.
-ball gallery_shadow_line masked.probes --plain --count 600 --center 6.1,1.75,-0.5 --radius 1.5 \
-    --eye 6.2,1.7,7 --target 5.95,1.7,-0.5 --fov 29
-# A day: one bake, another sun and another sky each.
-day=(morning noon evening night)
-suns=("1,-0.4,-0.5 3,1.9,1" "0.15,-1,-0.4 3.2,3,2.7" "-1,-0.3,-0.5 3.2,1.5,0.5" "0.4,-1,0.2 0.02,0.03,0.05")
-skies=("0.25,0.35,0.6" "0.35,0.5,0.8" "0.3,0.22,0.3" "0.004,0.007,0.02")
-for i in 0 1 2 3; do
-    read -r direction irradiance <<<"${suns[i]}"
-    "$tetralight" relight "$work/layers.probes" -o "$work/day.probes" --quiet --sky "${skies[i]}" \
-        --sun-direction="$direction" --sun-irradiance "$irradiance"
-    render "gallery_${day[i]}" day.probes --camera camera --exposure 0.9
+shift 2
+sponza="" work=""
+while (($# > 1)); do
+    case $1 in
+        --sponza) sponza=$2 ;;
+        --keep) work=$2 ;;
+        *) echo "make_gallery.sh: unknown option $1" >&2 && exit 2 ;;
+    esac
+    shift 2
 done
-# Gizmos: all cells, and one of them.
-render courtyard_cells plain.probes --show cells,probes --ball-radius 0.2 --eye 12,16,25 --target 0.5,2.2,0.5 --fov 45
-render gallery_selection plain.probes --show selection=0.6,1.3,6.2 --ball-radius 0.16 \
-    --eye 5.5,4.2,14 --target 0.6,1.6,6.2 --fov 40 --exposure 0.9
+if [[ -z $work ]]; then
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+fi
+mkdir -p "$out" "$work"
+command -v cwebp >/dev/null || { echo "make_gallery.sh: needs cwebp (Debian: apt-get install webp)" >&2; exit 1; }
 
-# Where light comes through the walls of the house with few probes.
-"$tetralight" grid "$scene" -o "$work/few.json" --spacing 2.6 --min -7,0.2,-6 --max 8,3.3,6 --quiet
-bake "$scene" -g "$work/few.json" --only-given-groups -o "$work/few.probes" --samples 1024
-"$tetralight" check-leaks "$work/few.probes" --scene "$scene" --picture "$out/check_leaks.png" --quiet
+once() { # FILE COMMAND ...: runs the command unless the file is there
+    [[ -e $1 ]] || "${@:2}"
+}
+bake() { once "$work/$1" "$tetralight" "$2" "$3" -o "$work/$1" --quiet "${@:4}"; } # FILE COMMAND SCENE ...
+webp() { cwebp -quiet -q "${quality:-88}" -sharp_yuv "$work/$1.png" -o "$out/$1.webp"; }
+show() { # PICTURE SCENE VOLUME ...   ($width and $height)
+    once "$work/$1.png" "$tetralight" render "$work/$2.glb" "$work/$3.probes" -o "$work/$1.png" \
+        --width "${width:-960}" --height "${height:-540}" --antialias 4 --quiet "${@:4}"
+    webp "$1"
+}
+small() { width=640 height=360 show "$@"; }
+
+# The room: one bake with layers for all its lights.
+python3 -B examples/scenes/make_room.py "$work/room.glb"
+python3 -B examples/scenes/make_room.py "$work/screen.glb" --screen
+layers=(--layers sun,sky,material:shade,material:bulb_pendant,light:floor_lamp_light,light:pendant_light)
+inside=(--min 0,0,-1.42 --max 6,2.7,4.6 --from 2,1.5,2.8)
+bake room.json grid "$work/room.glb" --spacing 0.4 "${inside[@]}"
+bake room.probes bake "$work/room.glb" -g "$work/room.json" --samples 4096 "${layers[@]}" --mixed-lighting shadowmask
+bake room.lightmaps lightmap "$work/room.glb" -t 20 --samples 96 "${layers[@]}" --mixed-lighting shadowmask
+bake room.ktx2 reflect "$work/room.glb" --cube-size 128 --samples 64 --clamp 20 "${layers[@]}" --resume
+
+lamps_off=material:shade=0,material:bulb_pendant=0,light:floor_lamp_light=0,light:pendant_light=0
+declare -A weights=([day]=$lamps_off [clouds]=sun=0,$lamps_off [evening]=sun=0,sky=0.05
+    [night]=sun=0,sky=0.004,material:bulb_pendant=0,light:pendant_light=0)
+for time in day clouds evening night; do
+    for kind in probes lightmaps ktx2; do
+        once "$work/$time.$kind" "$tetralight" relight "$work/room.$kind" -o "$work/$time.$kind" \
+            --weights "${weights[$time]}" --quiet
+    done
+done
+all() { echo --lightmaps "$work/$1.lightmaps" --reflections "$work/$1.ktx2"; }
+day=(--exposure 8) evening=(--exposure 6.5)
+
+# shellcheck disable=SC2046  # all prints options
+{
+    show gallery_day room day --camera camera $(all day) "${day[@]}"
+    show gallery_evening room evening --camera camera $(all evening) "${evening[@]}"
+    small gallery_clouds room clouds --camera camera $(all clouds) --exposure 18
+    small gallery_night room night --camera camera $(all night) --exposure 7
+    small gallery_noon room day --camera camera_windows $(all day) --exposure 6
+    small gallery_lamps room evening --camera camera_windows $(all evening) "${evening[@]}"
+
+    # What moves: without light from probes, and with it.
+    moving=(--camera camera "${day[@]}")
+    small gallery_direct room day "${moving[@]}" --probes none
+    small gallery_still room day "${moving[@]}" --lightmaps "$work/day.lightmaps" --probes still
+    small gallery_moving room day "${moving[@]}" $(all day)
+
+    # Surfaces: probes alone, and lightmaps.
+    surfaces=(--camera camera_table --exposure 20)
+    small gallery_surfaces_probes room clouds "${surfaces[@]}"
+    small gallery_surfaces_lightmaps room clouds "${surfaces[@]}" --lightmaps "$work/clouds.lightmaps"
+
+    # Reflections.
+    shiny=(--eye 2.75,0.62,3.75 --target 2.7,0.32,2.1 --fov 42 --exposure 5.5)
+    small gallery_reflections_off room day "${shiny[@]}" --lightmaps "$work/day.lightmaps"
+    small gallery_reflections_on room day "${shiny[@]}" $(all day)
+}
+
+# Walls: probes 1 m apart, in the evening, seen from the dim corridor.
+bake coarse.json grid "$work/room.glb" --spacing 1 "${inside[@]}"
+bake coarse.probes bake "$work/room.glb" -g "$work/coarse.json" --samples 8192 "${layers[@]}"
+once "$work/evening_coarse.probes" "$tetralight" relight "$work/coarse.probes" -o "$work/evening_coarse.probes" \
+    --weights "${weights[evening]}" --quiet
+corridor=(--camera camera_corridor --exposure 28)
+small gallery_walls_plain room evening_coarse "${corridor[@]}" --walls ignore
+small gallery_walls room evening_coarse "${corridor[@]}"
+
+# A folding screen that moves: by one place, and by a grid.
+screen=(--eye 4.7,1.45,1.7 --target 1.95,0.95,4.0 --fov 46 "${evening[@]}")
+small gallery_screen_one screen evening "${screen[@]}" --probes one
+small gallery_screen screen evening "${screen[@]}"
+small gallery_screen_points screen evening "${screen[@]}" --show lppv
+
+# The mesh ball, in three ways and large.
+ball() { # PICTURE WIDTH HEIGHT ...
+    once "$work/$1.png" "$tetralight" meshball "$work/evening.probes" --scene "$work/room.glb" --lightmaps "$work/evening.lightmaps" \
+        --reflections "$work/evening.ktx2" -o "$work/$1.png" --width "$2" --height "$3" --specular --quiet \
+        --center 3.3,1.3,1.9 --radius 0.85 --eye 4.9,1.5,4.35 --target 2.9,1.12,1.2 --fov 50 "${evening[@]}" "${@:4}"
+    webp "$1"
+}
+ball gallery_ball_off 640 360 --antialias 4 --off
+ball gallery_ball_probes 640 360 --antialias 4
+ball gallery_ball_lppv 640 360 --antialias 4 --lppv
+quality=84 ball gallery_ball 1920 1080 --antialias 4
+
+# The probes.
+small gallery_probes room evening --camera camera "${evening[@]}" --show probes --ball-radius 0.04
+
+if [[ -n $sponza ]]; then
+    ln -sf "$(realpath "$sponza")" "$work/sponza.glb"
+    sun=(--sun-direction 0.12,-1,0.2 --sun-irradiance 12,11,9.5 --sun-angle 0.53 --sky 0.9,1.1,1.45)
+    bake sponza.json grid "$sponza" --spacing 1.6 "${sun[@]}"
+    bake sponza.probes bake "$sponza" -g "$work/sponza.json" --samples 384 "${sun[@]}" --mixed-lighting shadowmask
+    bake sponza.lightmaps lightmap "$sponza" -t 7 --samples 64 "${sun[@]}" --mixed-lighting shadowmask
+    sponza() { # PICTURE CAMERA EXPOSURE
+        small "gallery_sponza_$1_direct" sponza sponza --camera "$2" --exposure "$3" --probes none
+        small "gallery_sponza_$1_probes" sponza sponza --camera "$2" --exposure "$3"
+        small "gallery_sponza_$1" sponza sponza --camera "$2" --exposure "$3" --lightmaps "$work/sponza.lightmaps"
+    }
+    sponza court CameraAlternate 2
+    sponza arcade CameraAlcove 16
+fi
+
+# Pictures of other pages. The cells of the courtyard; where light comes through its walls with few probes.
+court=examples/scenes/courtyard.glb
+bake court.probes bake "$court" --samples 4096
+"$tetralight" render "$court" "$work/court.probes" -o "$out/courtyard_cells.png" --width 512 --height 288 \
+    --show cells,probes --ball-radius 0.2 --eye 12,16,25 --target 0.5,2.2,0.5 --fov 45 --quiet
+bake few.json grid "$court" --spacing 2.6 --min -7,0.2,-6 --max 8,3.3,6
+bake few.probes bake "$court" -g "$work/few.json" --only-given-groups --samples 1024
+"$tetralight" check-leaks "$work/few.probes" --scene "$court" --picture "$out/check_leaks.png" --quiet
 
 # The window of a room, and where the sun falls through it.
 python3 -B examples/scenes/make_window_room.py "$work/window_room.glb"
-room=("$work/window_room.glb" -g "$work/window_room.json" -o "$work/window_room.probes" --quiet)
-"$tetralight" grid "${room[0]}" -o "${room[2]}" --spacing 0.5 --from 2.5,1.5,2 --min=-0.2,0,0 --max 10.2,3,4 --quiet
-"$tetralight" bake "${room[@]}" --target-error 1%
-"$tetralight" render "${room[0]}" "${room[4]}" -o "$out/openings.png" --show openings --camera camera --exposure 4 \
-    --width 640 --height 360 --quiet
+bake window_room.json grid "$work/window_room.glb" --spacing 0.5 --from 2.5,1.5,2 --min=-0.2,0,0 --max 10.2,3,4
+bake window_room.probes bake "$work/window_room.glb" -g "$work/window_room.json" --target-error 1%
+"$tetralight" render "$work/window_room.glb" "$work/window_room.probes" -o "$out/openings.png" --show openings \
+    --camera camera --exposure 4 --width 640 --height 360 --quiet
 
 if command -v pngquant >/dev/null; then
-    for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png "$out"/check_leaks.png "$out"/openings.png; do
+    for picture in "$out"/{courtyard_cells,check_leaks,openings}.png; do
         pngquant 256 --speed 1 --force --output "$picture" "$picture"
     done
 fi
