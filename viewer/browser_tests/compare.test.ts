@@ -57,6 +57,25 @@ test('a volume does not differ from itself', () => visit(
         await expect.poll(() => difference(page)).toEqual([0, 0]);
     }));
 
+test('a comparison is metered by its right side', () => visit(link(), async page => {
+    await ready(page);
+    const exposure = () => page.evaluate(async () => {
+        const {stage} = (window as any).tetralight.viewer;  // eslint-disable-line
+        stage.exposure = 1;
+        await stage.exposeItself(0);
+        return stage.exposure as number;
+    });
+    await show(page, 'Off');
+    await expect.poll(() => page.locator('.compare').isHidden()).toBe(true);
+    const ofOpenVolume = await exposure();
+    expect(ofOpenVolume).not.toBe(1);
+    for (const [mode, words] of [['Wipe', 'Right: The open volume'], ['Difference', /^Difference of/]] as const) {
+        await show(page, mode);
+        await label(page, words);
+        expect(await exposure()).toBeCloseTo(ofOpenVolume, 6);
+    }
+}));
+
 test('each side of the divider is the picture of its own light', () => visit(link('&compare=wipe&left=none&right=none'), async page => {
     await ready(page);
     const {x, y} = await canvasMiddle(page);

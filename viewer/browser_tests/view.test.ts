@@ -84,7 +84,7 @@ test('the exposure is that of the light itself, and needs no shader of its own',
         const [width, height] = [64, 36];
         const kFloat = 1015;
         setTarget(new Target(width, height, {type: kFloat}));  // linear, not tone-mapped
-        stage.drawNow();
+        stage.render();
         const pixels = new Float32Array(4 * width * height);
         renderer.readRenderTargetPixels(renderer.getRenderTarget(), 0, 0, width, height, pixels);
         setTarget(null);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two lights of the same scene in one picture: side by side at a divider, or their difference.
-import * as three from 'three';
-
 import {ambientOf, constantAnswers, kNoLight, plainAnswers} from '../light/answers';
 import {OtherLight} from '../light/other_light';
 import {isBaked, openVolume, OpenVolume} from '../light/volume';
 import type {Bake, StoredFile} from '../page/api';
 import {colorBar} from '../page/color_bar';
 import {kDifferenceMap} from '../page/color_maps';
+import {drawStrip} from '../view/canvas_target';
 import {hideMarks} from '../view/meter';
 import type {Viewer} from '../view/viewer';
 import {isOwnSide, kOwnSides, OwnSide, volumeTitle} from './compare_sides';
@@ -172,7 +171,10 @@ export class Comparison {
         this.shown = {left, right};
         this.viewer.isComparing = isOn;
         this.facts = null;
-        stage.painter = !isOn ? null : mode === 'wipe' ? () => this.paintWipe() : () => this.paintDifference();
+        stage.painter = !isOn ? null : {
+            draw: () => mode === 'wipe' ? this.paintWipe() : this.paintDifference(),
+            drawLight: () => this.paintSide('right', stage.renderer.shadowMap.needsUpdate),
+        };
         const titles = [this.titleOf(left), this.titleOf(right)] as const;
         if (!isOn) this.wipe.hide();
         else if (mode === 'wipe') this.wipe.show(titles, split);
@@ -194,15 +196,10 @@ export class Comparison {
 
     private paintWipe(): void {
         const {stage: {renderer}} = this.viewer;
-        const {x: width, y: height} = renderer.getSize(new three.Vector2());
-        const at = Math.round(width * this.state.split);
+        const {split} = this.state;
         const areShadowsDue = renderer.shadowMap.needsUpdate;
-        renderer.setScissorTest(true);
-        renderer.setScissor(0, 0, at, height);
-        if (at > 0) this.paintSide('left', areShadowsDue);
-        renderer.setScissor(at, 0, width - at, height);
-        if (at < width) this.paintSide('right', areShadowsDue);
-        renderer.setScissorTest(false);
+        drawStrip(renderer, 0, split, () => this.paintSide('left', areShadowsDue));
+        drawStrip(renderer, split, 1, () => this.paintSide('right', areShadowsDue));
     }
 
     private paintDifference(): void {

@@ -69,13 +69,14 @@ export class DifferencePass {
     /** Shows how much brighter the right picture is; each function draws one of the two, without tone mapping. */
     draw(drawSides: readonly [() => void, () => void], {unit, range, floor}: DifferenceScale): void {
         const {renderer, material: {uniforms}} = this;
+        const output = renderer.getRenderTarget();
         const size = renderer.getDrawingBufferSize(new three.Vector2());
         drawSides.forEach((drawSide, i) => {
             this.targets[i].setSize(size.x, size.y);
             renderer.setRenderTarget(this.targets[i]);
             drawSide();
         });
-        renderer.setRenderTarget(null);
+        renderer.setRenderTarget(output);
         uniforms.floorLight.value = floor;
         uniforms.range.value = range;
         uniforms.isPercent.value = unit === 'percent';

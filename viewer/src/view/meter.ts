@@ -3,6 +3,7 @@
 import * as three from 'three';
 
 import {luminance} from '../light/radiometry';
+import {useShadersOfCanvas} from './canvas_target';
 import {takeToneMappingBack} from './exposure';
 
 const kWidth = 64;
@@ -33,10 +34,7 @@ function brightOf(pixels: Float32Array): number {
 
 async function measureAt(exposure: number, renderer: three.WebGLRenderer, scene: three.Scene, draw: () => void): Promise<Float32Array> {
     const target = new three.WebGLRenderTarget(kWidth, kHeight, {type: three.FloatType});
-    // Targets are linear and not tone-mapped, unless they are of headsets: then the shaders are those of the
-    // canvas, and half as many are to compile.
-    target.texture.colorSpace = renderer.outputColorSpace;
-    Object.assign(target, {isXRRenderTarget: true});
+    useShadersOfCanvas(target, renderer);
     const {toneMapping, toneMappingExposure} = renderer;
     const showMarks = hideMarks(scene);
     renderer.toneMapping = three.NeutralToneMapping;  // the one that can be taken back

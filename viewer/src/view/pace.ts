@@ -2,7 +2,9 @@
 // On a slow machine, pictures that follow each other are coarse, and a full one follows once nothing changes.
 
 const kSmooth = 20;  // milliseconds of a picture that keeps up with a hand
-const kScales = [1, 0.7, 0.5, 0.35, 0.25];
+const kScales = [0.85, 0.7, 0.5, 0.35, 0.25];
+/** The time of a full picture, which is antialiased, by that of one of its size that is not, as coarse ones are. */
+const kAntialiasing = 1.5;
 
 export class Pace {
     /** Milliseconds of a full picture; before the first, it is taken for slow. */
@@ -10,12 +12,13 @@ export class Pace {
 
     /** The resolution of the next picture along an axis, as a part of the full one. */
     get scale(): number {
-        const wanted = Math.sqrt(kSmooth / this.full);
+        if (this.full <= kSmooth) return 1;
+        const wanted = Math.sqrt(kAntialiasing * kSmooth / this.full);
         return kScales.find(scale => scale <= wanted) ?? kScales.at(-1)!;
     }
 
     /** A picture of a scale took so long. */
     took(milliseconds: number, scale: number): void {
-        this.full = milliseconds / scale ** 2;
+        this.full = scale === 1 ? milliseconds : milliseconds * kAntialiasing / scale ** 2;
     }
 }

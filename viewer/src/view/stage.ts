@@ -10,8 +10,17 @@ import {measureLight} from './meter';
 import {Pace} from './pace';
 import {ShadowChanges} from './shadow_changes';
 import {Sky} from './sky';
+import {SmoothPicture} from './smooth_picture';
 
 const kStillMilliseconds = 150;
+
+/** Draws in another way than `render`. */
+export interface Painter {
+    /** A picture. */
+    draw(): void;
+    /** What is metered. */
+    drawLight(): void;
+}
 
 export class Stage {
     readonly renderer: three.WebGLRenderer;
@@ -22,8 +31,7 @@ export class Stage {
     readonly canvas: HTMLCanvasElement;
     /** Called when there is another exposure. */
     exposed = () => {};
-    /** Draws a picture in another way than `render`. */
-    painter: (() => void) | null = null;
+    painter: Painter | null = null;
     /** The exposure is metered again when the camera has moved. */
     isAutomatic = false;
     /** Called after each picture. */
@@ -32,6 +40,7 @@ export class Stage {
     scale = 1;
     private isDue = false;
     private readonly pace = new Pace();
+    private readonly smooth: SmoothPicture;
     private readonly shadows = new ShadowChanges();
     private hasOldShadows = false;
     private stillTimer: ReturnType<typeof setTimeout> | undefined;
@@ -40,7 +49,8 @@ export class Stage {
     private isExposed = false;
 
     constructor(readonly parent: HTMLElement) {
-        this.renderer = new three.WebGLRenderer({antialias: true});
+        this.renderer = new three.WebGLRenderer({antialias: false});
+        this.smooth = new SmoothPicture(this.renderer);
         this.canvas = this.renderer.domElement;
         this.canvas.tabIndex = 0;
         this.canvas.setAttribute('role', 'application');
@@ -84,7 +94,7 @@ export class Stage {
         this.canvas.toBlob(picture => { if (picture !== null) use(picture); });  // before the browser clears what was drawn
     }
 
-    /** Draws as finely as the machine does in time for the next picture; the full one follows. */
+    /** Draws as finely, and as smoothly, as the machine does in time for the next picture; the full one follows. */
     private drawInTime(): void {
         const {scale} = this.pace;
         const start = performance.now();
@@ -105,19 +115,20 @@ export class Stage {
             this.scale = scale;
             this.fit();
         }
-        this.paint(scale);
+        this.followShadows(scale);
+        const draw = () => this.painter === null ? this.render() : this.painter.draw();
+        if (scale === 1) this.smooth.draw(draw);
+        else draw();
         for (const listener of this.drawn) listener();
     }
 
-    private paint(scale: number): void {
+    private followShadows(scale: number): void {
         const change = this.shadows.follow(this.scene);
         this.hasOldShadows ||= change !== 'none';
         // Shadows that only move may wait for the full picture.
         const {shadowMap} = this.renderer;
         shadowMap.needsUpdate = change === 'others' || (this.hasOldShadows && scale === 1);
         if (shadowMap.needsUpdate) this.hasOldShadows = false;
-        if (this.painter === null) this.render();
-        else this.painter();
     }
 
     /** Draws the scene once, as it is lit now. */
@@ -188,7 +199,11 @@ export class Stage {
 
     /** The light of the view without marks, RGBA. */
     light(): Promise<Float32Array> {
-        return measureLight(this.renderer, this.scene, () => this.paint(1));
+        return measureLight(this.renderer, this.scene, () => {
+            this.followShadows(1);
+            if (this.painter === null) this.render();
+            else this.painter.drawLight();
+        });
     }
 
     set toneMapping(toneMapping: three.ToneMapping) {
