@@ -62,7 +62,7 @@ TEST_F(CheckLeaks, DrawsAPicture) {
 }
 
 TEST_F(CheckLeaks, WarnsOfAnotherScene) {
-    EXPECT_EQ(succeed(arguments()).err, "");
+    EXPECT_FALSE(contains(succeed(arguments()).err, "warning"));
     EXPECT_TRUE(contains(succeed(arguments({"--sky", "1,0,0"})).err,
                          "warning: v.probes: was baked from another scene, sky or sun"));
     EXPECT_TRUE(contains(fail(arguments({"--sky", "1,0,0", "--max-leak", "50%"})),

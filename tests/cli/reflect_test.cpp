@@ -179,10 +179,12 @@ TEST_F(Reflect, ExplainsWithoutBaking) {
 
 TEST_F(Reflect, WarnsIfTheFileHoldsTheSkyAlone) {
     const CommandResult result = succeed(arguments("empty.gltf", "r.ktx2", {"--sky", "1"}));
-    EXPECT_EQ(result.err,
-              "warning: empty.gltf: has no reflection probes; the result holds the sky alone\n");
+    EXPECT_TRUE(contains(result.err,
+                         "warning: empty.gltf: has no reflection probes; the result "
+                         "holds the sky alone\n"));
     EXPECT_EQ(names_in("r.ktx2"), Names({"sky"}));
-    EXPECT_EQ(succeed(arguments("two.gltf", "r.ktx2", {"--sky", "1"})).err, "");
+    const CommandResult baked = succeed(arguments("two.gltf", "r.ktx2", {"--sky", "1"}));
+    EXPECT_FALSE(contains(baked.err, "warning"));
 }
 
 TEST_F(Reflect, NothingToBakeKeepsTheOldFile) {
