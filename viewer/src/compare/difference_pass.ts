@@ -3,6 +3,7 @@
 import * as three from 'three';
 
 import {kDifferenceMap} from '../page/color_maps';
+import {ScreenPass} from '../view/screen_pass';
 
 export type Unit = 'stops' | 'percent';
 
@@ -24,7 +25,6 @@ const kColors = 256;
 const kFactsWidth = 96;
 const kFactsHeight = 54;
 
-const kVertex = 'varying vec2 place;\nvoid main() {\n    place = uv;\n    gl_Position = vec4(position.xy, 0.0, 1.0);\n}';
 const kFragment = `
 uniform sampler2D leftLight;
 uniform sampler2D rightLight;
@@ -48,27 +48,19 @@ export class DifferencePass {
     private readonly targets = [0, 1].map(() => new three.WebGLRenderTarget(1, 1, {type: three.FloatType}));
     private readonly facts = new three.WebGLRenderTarget(kFactsWidth, kFactsHeight,
                                                          {type: three.FloatType, depthBuffer: false});
-    private readonly material: three.ShaderMaterial;
-    private readonly scene = new three.Scene();
-    private readonly camera = new three.Camera();
+    private readonly pass: ScreenPass;
 
     constructor(private readonly renderer: three.WebGLRenderer) {
         for (const {texture} of this.targets) texture.minFilter = texture.magFilter = three.NearestFilter;
-        const value = <T>(of: T) => ({value: of});
-        this.material = new three.ShaderMaterial({
-            vertexShader: kVertex, fragmentShader: kFragment, depthTest: false, depthWrite: false, toneMapped: false,
-            uniforms: {leftLight: value(this.targets[0].texture), rightLight: value(this.targets[1].texture),
-                       colors: value(colorTexture()), floorLight: value(1), range: value(1), isPercent: value(false),
-                       isPlain: value(false)},
+        this.pass = new ScreenPass(kFragment, {
+            leftLight: this.targets[0].texture, rightLight: this.targets[1].texture, colors: colorTexture(), floorLight: 1,
+            range: 1, isPercent: false, isPlain: false,
         });
-        const quad = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
-        quad.frustumCulled = false;
-        this.scene.add(quad);
     }
 
     /** Shows how much brighter the right picture is; each function draws one of the two, without tone mapping. */
     draw(drawSides: readonly [() => void, () => void], {unit, range, floor}: DifferenceScale): void {
-        const {renderer, material: {uniforms}} = this;
+        const {renderer, pass: {uniforms}} = this;
         const output = renderer.getRenderTarget();
         const size = renderer.getDrawingBufferSize(new three.Vector2());
         drawSides.forEach((drawSide, i) => {
@@ -80,16 +72,16 @@ export class DifferencePass {
         uniforms.floorLight.value = floor;
         uniforms.range.value = range;
         uniforms.isPercent.value = unit === 'percent';
-        renderer.render(this.scene, this.camera);
+        this.pass.draw(renderer);
     }
 
     /** Of what was drawn last. */
     measure(): DifferenceFacts {
-        const {renderer, facts, material: {uniforms}} = this;
+        const {renderer, facts, pass: {uniforms}} = this;
         const pixels = new Float32Array(4 * kFactsWidth * kFactsHeight);
         uniforms.isPlain.value = true;
         renderer.setRenderTarget(facts);
-        renderer.render(this.scene, this.camera);
+        this.pass.draw(renderer);
         renderer.readRenderTargetPixels(facts, 0, 0, kFactsWidth, kFactsHeight, pixels);
         renderer.setRenderTarget(null);
         uniforms.isPlain.value = false;

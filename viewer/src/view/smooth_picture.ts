@@ -3,10 +3,10 @@
 import * as three from 'three';
 
 import {useShadersOfCanvas} from './canvas_target';
+import {ScreenPass} from './screen_pass';
 
 const kSamples = 4;
 
-const kVertex = 'varying vec2 place;\nvoid main() {\n    place = uv;\n    gl_Position = vec4(position.xy, 0.0, 1.0);\n}';
 const kFragment = `
 uniform sampler2D picture;
 varying vec2 place;
@@ -16,8 +16,7 @@ void main() {
 
 export class SmoothPicture {
     private readonly target: three.WebGLRenderTarget;
-    private readonly scene = new three.Scene();
-    private readonly camera = new three.Camera();
+    private readonly pass: ScreenPass;
 
     constructor(private readonly renderer: three.WebGLRenderer) {
         this.target = new three.WebGLRenderTarget(1, 1, {samples: kSamples});
@@ -25,12 +24,7 @@ export class SmoothPicture {
         const {texture} = this.target;
         texture.internalFormat = 'RGBA8';  // colors are coded already
         texture.minFilter = texture.magFilter = three.NearestFilter;
-        const quad = new three.Mesh(new three.PlaneGeometry(2, 2), new three.ShaderMaterial({
-            vertexShader: kVertex, fragmentShader: kFragment, depthTest: false, depthWrite: false, toneMapped: false,
-            uniforms: {picture: {value: texture}},
-        }));
-        quad.frustumCulled = false;
-        this.scene.add(quad);
+        this.pass = new ScreenPass(kFragment, {picture: texture});
     }
 
     /** Shows on the canvas what `draw` draws. */
@@ -41,6 +35,6 @@ export class SmoothPicture {
         renderer.setRenderTarget(target);
         draw();
         renderer.setRenderTarget(null);
-        renderer.render(this.scene, this.camera);
+        this.pass.draw(renderer);
     }
 }
