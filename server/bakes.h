@@ -83,8 +83,8 @@ class Bakes {
     [[nodiscard]] Json unfinished_and_newer(int64_t& number) const;
 
     [[nodiscard]] bool is_over(const std::string& id) const;
-    /// The path of the newest preview, a file of what the bake makes. Throws 404 if there is no
-    /// such bake, or if it has ended or bakes reflection probes.
+    /// The path of the newest preview: a volume, or lightmaps. Throws 404 if there is no such bake,
+    /// or if it has ended or bakes reflection probes.
     [[nodiscard]] std::string preview_file_path(const std::string& id) const;
     /// The path of another file in the results of a bake of lightmaps. Throws 404 if there is no
     /// such bake, or if it bakes no lightmaps or has ended.

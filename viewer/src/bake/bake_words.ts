@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page says when something of a bake is not there any more, and how to go on.
+// Messages about a bake whose scene, groups or volume was deleted, and what the user can do.
 import {ApiError, Bake, titleOf, Unreachable} from '../page/api';
 
 const kResults: Record<Bake['kind'], string> = {

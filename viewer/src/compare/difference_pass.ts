@@ -4,6 +4,7 @@ import * as three from 'three';
 
 import {kDifferenceMap} from '../page/color_maps';
 import {ScreenPass} from '../view/screen_pass';
+import {meanAndP95} from './mean_p95';
 
 export type Unit = 'stops' | 'percent';
 
@@ -90,9 +91,8 @@ export class DifferencePass {
 }
 
 export function factsOf(differences: Float32Array): DifferenceFacts {
-    const sizes = differences.map(Math.abs).sort();
-    const mean = sizes.reduce((sum, size) => sum + size, 0) / sizes.length;
-    return {mean, p95: sizes[Math.max(0, Math.ceil(0.95 * sizes.length) - 1)]};
+    const [mean, p95] = meanAndP95(differences.map(Math.abs));
+    return {mean, p95};
 }
 
 function colorTexture(): three.DataTexture {

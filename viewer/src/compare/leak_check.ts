@@ -63,7 +63,7 @@ export const kLeakKinds: Record<LeakKind, string> = {
     unseen: 'Coverage: places that see no probe',
 };
 
-/** Of each place, as a share of the mean traced light of all; of coverage, 1 or 0. */
+/** One value for each place: light as a share of the mean traced light; for coverage, 1 or 0. */
 export function leakShares(places: readonly LeakPlace[], kind: LeakKind): number[] {
     if (kind === 'unseen') return places.map(({is_unseen}) => Number(is_unseen));
     const mean = places.reduce((sum, {traced}) => sum + traced, 0) / places.length;
@@ -74,14 +74,7 @@ export function leakShares(places: readonly LeakPlace[], kind: LeakKind): number
 /** 0 at a thousandth of the mean light and less, 1 at all of it: a step of the map is a power of ten. */
 export const leakHeat = (share: number) => share <= 1e-3 ? 0 : Math.min(1, (Math.log10(share) + 3) / 3);
 
-/** Of the places with a share of more than a thousandth, the largest first. */
+/** Indices of the places whose share is above a thousandth, sorted from the largest share. */
 export function worstPlaces(shares: readonly number[], count: number): number[] {
     return [...shares.keys()].filter(i => leakHeat(shares[i]) > 0).sort((a, b) => shares[b] - shares[a] || a - b).slice(0, count);
-}
-
-/** The mean, and what 95 % do not exceed. */
-export function meanAndP95(shares: readonly number[]): [number, number] {
-    const sorted = [...shares].sort((a, b) => a - b);
-    const mean = sorted.reduce((sum, share) => sum + share, 0) / sorted.length;
-    return [mean, sorted[Math.max(0, Math.ceil(0.95 * sorted.length) - 1)]];
 }

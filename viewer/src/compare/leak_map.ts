@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places in the scene as balls that are colored by a share of light; those behind walls show through.
+// Balls at the places of a leak check, colored by their share of light; they are visible through walls.
 import * as three from 'three';
 
 import {kHeatMap, Rgb} from '../page/color_maps';

@@ -7,8 +7,9 @@ import {kHeatMap} from '../page/color_maps';
 import {counted} from '../page/colors';
 import {button, checkbox, element, labelled, select} from '../page/dom';
 import type {Viewer} from '../view/viewer';
-import {checkLeaks, kLeakKinds, LeakKind, LeakPlace, leakShares, meanAndP95, worstPlaces} from './leak_check';
+import {checkLeaks, kLeakKinds, LeakKind, LeakPlace, leakShares, worstPlaces} from './leak_check';
 import {LeakMap} from './leak_map';
+import {meanAndP95} from './mean_p95';
 
 const kRows = 20;
 const kPlaces = ['250', '500', '1000', '2000', '4000'];

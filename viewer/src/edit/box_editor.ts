@@ -100,7 +100,7 @@ export class BoxEditor {
         if (this.selected !== null) this.session.edit({boxes: boxes.remove(all, box), box: -1});
     }
 
-    /** Takes the handle on a side, if one is there. */
+    /** Starts to drag the handle under the pointer, if there is one. */
     press(x: number, y: number): boolean {
         const box = this.selected;
         if (box === null || this.handles !== 'size') return false;

@@ -115,7 +115,7 @@ export function moveSide(box: Box, side: Side, by: number, step: number): Box {
     return {...box, size, position: tidied(position)};
 }
 
-/** Equal for boxes of the same values, whatever the order of their settings. */
+/** A text that two boxes share if all their values are equal; the order of their settings does not matter. */
 export function identityOf({kind, name, shape, position, rotation, size, offset, settings}: Box): string {
     const inOrder = Object.entries(settings).sort(([a], [b]) => a < b ? -1 : 1);
     return JSON.stringify([kind, name, shape, position, rotation, size, offset, inOrder]);

@@ -118,7 +118,7 @@ function strip(gltf: Gltf, {index, box: {kind}}: Found): void {
     }
 }
 
-/** The node is there for the box alone. */
+/** The node has nothing but the box, so it can be removed with it. */
 function isBare(gltf: Gltf, index: number, kind: BoxKindId): boolean {
     const {extras, name: _, translation, rotation, scale, matrix, ...others} = gltf.nodes![index];
     const isMoved = gltf.animations?.some(({channels}) => channels.some(({target}) => target.node === index)) ?? false;

@@ -83,7 +83,7 @@ export class Stage {
         });
     }
 
-    /** Draws at full resolution. */
+    /** Draws at full resolution, antialiased. */
     drawNow(): void {
         this.drawAt(1);
     }
@@ -94,7 +94,7 @@ export class Stage {
         this.canvas.toBlob(picture => { if (picture !== null) use(picture); });  // before the browser clears what was drawn
     }
 
-    /** Draws as finely, and as smoothly, as the machine does in time for the next picture; the full one follows. */
+    /** Draws at the resolution that the machine draws in time for the next picture; the full picture follows. */
     private drawInTime(): void {
         const {scale} = this.pace;
         const start = performance.now();
@@ -122,6 +122,7 @@ export class Stage {
         for (const listener of this.drawn) listener();
     }
 
+    /** Decides whether the next picture draws the shadow maps again. */
     private followShadows(scale: number): void {
         const change = this.shadows.follow(this.scene);
         this.hasOldShadows ||= change !== 'none';

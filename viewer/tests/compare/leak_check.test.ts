@@ -2,7 +2,7 @@
 import {expect, test} from 'vitest';
 
 import type {Api} from '../../src/page/api';
-import {checkLeaks, LeakPlace, leakHeat, leakShares, meanAndP95, worstPlaces} from '../../src/compare/leak_check';
+import {checkLeaks, LeakPlace, leakHeat, leakShares, worstPlaces} from '../../src/compare/leak_check';
 
 const place = (through_walls: number, traced: number, is_unseen = false): LeakPlace => (
     {position: [0, 0, 0], is_unseen, through_walls, missing: 0.5, answer: traced + through_walls, traced});
@@ -23,10 +23,6 @@ test('a power of ten is a third of the map', () => {
 test('the worst places come first, and those without a leak do not', () => {
     expect(worstPlaces([0.1, 0, 0.5, 1e-4, 0.5], 9)).toEqual([2, 4, 0]);
     expect(worstPlaces([0.1, 0, 0.5], 1)).toEqual([2]);
-});
-
-test('mean and p95', () => {
-    expect(meanAndP95(Array.from({length: 100}, (_, i) => i + 1))).toEqual([50.5, 95]);
 });
 
 test('portions have seeds of their own, add up, and have the sky of the bake', async () => {
