@@ -77,7 +77,8 @@ class Layout(unittest.TestCase):
         self.assertEqual(first.manifest, second.manifest)
 
 
-@unittest.skipUnless(can_make_system() and can_reach_mirror(), "no new Debian system can be made here")
+@unittest.skipUnless(os.environ.get("TETRALIGHT_NIGHTLY") == "1" and can_make_system() and can_reach_mirror(),
+                     "needs TETRALIGHT_NIGHTLY=1 and a new Debian system")
 class Service(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="tetralight_oci_"))

@@ -3,8 +3,8 @@
 import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 
+import {build} from 'esbuild';
 import {Browser, chromium, Page} from 'playwright-core';
-import {build, Rollup} from 'vite';
 
 import {kCommand, kCourtyard} from '../tests/command.js';
 
@@ -20,13 +20,13 @@ export function launch(): Promise<Browser> {
         '--ignore-gpu-blocklist']});
 }
 
-/** The code of a script and all that it imports. */
+/** The code of a script and all of its imports that it uses. */
 export async function bundle(entry: string): Promise<string> {
-    const built = await build({
-        root: kRoot, configFile: false, logLevel: 'error', define: {'process.env.NODE_ENV': '"production"'},
-        build: {write: false, target: 'es2022', lib: {entry, formats: ['iife'], name: 'unused', fileName: 'page'}},
-    }) as Rollup.RollupOutput[];
-    return (built[0].output[0] as Rollup.OutputChunk).code;
+    const {outputFiles} = await build({
+        absWorkingDir: kRoot, entryPoints: [entry], bundle: true, write: false, format: 'iife', target: 'es2022',
+        define: {'process.env.NODE_ENV': '"production"'}, logLevel: 'error',
+    });
+    return outputFiles[0].text;
 }
 
 /** A page with a canvas of 8 × 8 pixels that has run the bundle of `entry`. Other addresses serve `files`. */
