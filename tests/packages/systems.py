@@ -16,6 +16,11 @@ def run(*command, **options):
     return done.stdout
 
 
+def is_nightly():
+    """Whether the environment asks for what takes a night: TETRALIGHT_NIGHTLY=1."""
+    return os.environ.get("TETRALIGHT_NIGHTLY") == "1"
+
+
 def can_reach_mirror():
     try:
         with urllib.request.urlopen(f"{MIRROR}/dists/bookworm/InRelease", timeout=20):

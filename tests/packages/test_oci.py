@@ -13,7 +13,7 @@ import unittest
 import urllib.request
 from pathlib import Path
 
-from systems import can_make_system, can_reach_mirror, run
+from systems import can_make_system, can_reach_mirror, is_nightly, run
 
 SOURCES = Path(os.environ["TETRALIGHT_SOURCES"])
 BUILD = Path(os.environ["TETRALIGHT_BUILD"])
@@ -77,7 +77,7 @@ class Layout(unittest.TestCase):
         self.assertEqual(first.manifest, second.manifest)
 
 
-@unittest.skipUnless(os.environ.get("TETRALIGHT_NIGHTLY") == "1" and can_make_system() and can_reach_mirror(),
+@unittest.skipUnless(is_nightly() and can_make_system() and can_reach_mirror(),
                      "needs TETRALIGHT_NIGHTLY=1 and a new Debian system")
 class Service(unittest.TestCase):
     def setUp(self):

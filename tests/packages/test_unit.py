@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from systems import MIRROR, can_make_system, can_reach_mirror, run
+from systems import MIRROR, can_make_system, can_reach_mirror, is_nightly, run
 
 SOURCES = Path(os.environ["TETRALIGHT_SOURCES"])
 BUILD = Path(os.environ["TETRALIGHT_BUILD"])
@@ -36,7 +36,7 @@ def landlock_version(log):
 
 
 def can_boot():
-    return (os.environ.get("TETRALIGHT_NIGHTLY") == "1" and os.getuid() == 0 and shutil.which("systemd-nspawn")
+    return (is_nightly() and os.getuid() == 0 and shutil.which("systemd-nspawn")
             and can_make_system() and can_reach_mirror())
 
 

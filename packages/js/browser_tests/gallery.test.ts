@@ -31,7 +31,7 @@ describe.skipIf(!kCanRun)('the gallery', () => {
     beforeAll(async () => {
         const [root, outDir] = [join(kRoot, 'gallery'), folder.file('page')];
         const configFile = join(root, 'vite.config.ts');
-        await build({root, configFile, publicDir: false, logLevel: 'error', build: {outDir, minify: false}});
+        await build({root, configFile, publicDir: false, logLevel: 'error', build: {outDir}});
         mkdirSync(join(outDir, 'files'));
         makeInput(kCommand, kCourtyard, join(outDir, 'files'), '--samples', '64');
         server = await preview({root, configFile, logLevel: 'error', build: {outDir}, preview: {port: 0, host: '127.0.0.1'}});
