@@ -8,6 +8,7 @@
 """
 import os
 import pwd
+import random
 import shutil
 import signal
 import socket
@@ -65,12 +66,23 @@ def missing():
     return "" if os.geteuid() == 0 else "Slurm's nodes need root"
 
 
+def is_free(port):
+    try:
+        socket.create_server(("127.0.0.1", port)).close()
+    except OSError:
+        return False
+    return True
+
+
 def free_ports(count):
-    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
-    return ports
+    """Below those that the system gives to other programs (from 32768 on), so that none takes one before its daemon does,
+    or while a daemon is killed and started again."""
+    ports = set()
+    while len(ports) < count:
+        port = random.randrange(20000, 32768)
+        if is_free(port):
+            ports.add(port)
+    return list(ports)
 
 
 def wait_until(is_true, seconds, what):

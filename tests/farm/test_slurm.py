@@ -115,6 +115,9 @@ class SlurmTest(unittest.TestCase):
         shown = self.slurm.run("scontrol", "--oneliner", "show", "job", job).stdout
         return sum(map(int, re.findall(r"Restarts=(\d+)", shown)))
 
+    def limit_time(self, job, element, minutes):
+        self.slurm.run("scontrol", "update", f"JobId={job}_{element}", f"TimeLimit={minutes}")
+
     def nothing_was_executed(self):
         made = [path for path in self.place.rglob("*") if re.fullmatch(r"made_\d", path.name)]
         self.assertEqual(made, [])
@@ -146,9 +149,12 @@ class SlurmTest(unittest.TestCase):
 
     def test_a_task_saves_its_work_before_its_time_is_over(self):
         _, job = self.plan(samples=4096, tasks=2)
-        jobs = self.submit(job, "--at-once", 1, "--option=--time=1")
-        process, = self.freeze_tasks(job, 1).values()
+        jobs = self.submit(job, "--at-once", 1, "--option=--time=60")
+        (task, process), = self.freeze_tasks(job, 1).items()
+        # Of a limit of a minute, the signal comes as soon as Slurm looks at it. The next start has the time that it needs.
+        self.limit_time(jobs["phase 0"], task, 1)
         wait_until(lambda: has_signal(process, "ShdPnd", signal.SIGTERM), 120, "the signal before the time limit")
+        self.limit_time(jobs["phase 0"], task, 60)
         send(process, signal.SIGCONT)
         self.assert_ends_well(jobs["collect"])
         self.assertEqual(self.restarts(jobs["phase 0"]), 1)
