@@ -8,13 +8,15 @@
 """
 import os
 import pwd
-import random
 import shutil
 import signal
-import socket
 import subprocess
+import sys
 import time
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "server"))
+from free_ports import free_ports
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue", "sinfo", "scancel")
 # Where Debian keeps daemons, which PATH of users may leave out.
@@ -64,25 +66,6 @@ def missing():
     if absent:
         return "there is no " + ", ".join(absent) + " (Debian packages slurmctld, slurmd, slurm-client and munge)"
     return "" if os.geteuid() == 0 else "Slurm's nodes need root"
-
-
-def is_free(port):
-    try:
-        socket.create_server(("127.0.0.1", port)).close()
-    except OSError:
-        return False
-    return True
-
-
-def free_ports(count):
-    """Below those that the system gives to other programs (from 32768 on), so that none takes one before its daemon does,
-    or while a daemon is killed and started again."""
-    ports = set()
-    while len(ports) < count:
-        port = random.randrange(20000, 32768)
-        if is_free(port):
-            ports.add(port)
-    return list(ports)
 
 
 def wait_until(is_true, seconds, what):

@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 
+from free_ports import free_ports
 from service import BINARY, COMMAND, COURTYARD, Answer, ServiceTest, lattice, read, write_groups
 from test_query import CELLS, FLOATS, OCCLUSION, binary_query
 
@@ -30,17 +31,11 @@ def has_haproxy():
     return shutil.which("haproxy") is not None
 
 
-def free_port():
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return free.getsockname()[1]
-
-
 class Balancer:
     """HAProxy in front of a writer and of three readers, given by their ports."""
 
     def __init__(self, folder, writer_port, reader_ports):
-        self.port = free_port()
+        self.port, = free_ports(1)
         self.socket_path = os.path.join(folder, "haproxy.sock")
         text = read(CONFIG).decode()
         changes = [("bind :443 .*", f"bind 127.0.0.1:{self.port}"),

@@ -5,12 +5,12 @@ import json
 import os
 import re
 import shutil
-import socket
 import subprocess
 import threading
 import unittest
 
 from faults import SHIM, Faults
+from free_ports import free_ports
 from service import COMMAND, COURTYARD, ServiceTest, lattice, write_groups
 
 
@@ -174,9 +174,8 @@ class Readiness(ServiceTest):
 class StandardDescriptors(ServiceTest):
     def test_closed_ones_are_opened(self):
         for closed in ("<&-", ">&-", "2>&-", "<&- >&- 2>&-"):
-            with self.subTest(closed=closed), socket.create_server(("127.0.0.1", 0)) as free:
-                port = free.getsockname()[1]
-                free.close()
+            with self.subTest(closed=closed):
+                port, = free_ports(1)
                 process = subprocess.Popen(
                     ["sh", "-c", f'exec "$0" "$@" {closed}', COMMAND, "serve", "--data", self.data,
                      "--listen", f"127.0.0.1:{port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
